@@ -108,9 +108,7 @@ def judge(campaigns: Sequence[Campaign]) -> dict[str, Any]:
     by_name: dict[str, list[Forecast]] = forecasts | {
         BASE_RATE: [each for one in campaigns for each in base_rates([test.observed for test in one.tests])]
     }
-    scores = {
-        name: [asdict(score(*pair)) for pair in zip(made, observed, strict=True)] for name, made in by_name.items()
-    }
+    scores = {name: [score(*pair) for pair in zip(made, observed, strict=True)] for name, made in by_name.items()}
     columns = {name: {key: np.array([row[key] for row in rows]) for key in rows[0]} for name, rows in scores.items()}
     own = columns["identified"]
     others = [name for name in columns if name != "identified"]

@@ -222,7 +222,7 @@ def _forecast(
     found = ensemble(
         specimen.block, motion, restitution=restitution, uncertainty=uncertainty, count=members, model=MODEL
     )
-    return forecast_of(found.peak_ratio, found.overturning_time)
+    return forecast_of(found.peak_ratio)
 
 
 def _undecided(specimen: Specimen, unit: Motion, random: np.random.Generator) -> tuple[float, float]:

@@ -116,7 +116,4 @@ def test_peaks():
     number = np.arange(1, 31)
     angle = np.asarray(angle_of_energy(0.8 * 0.95 ** (2 * number), PRISM.critical_angle))
     used = number < 25
-    band = np.where(used, 0.03, np.nan)
-    return peak_decay(
-        [PeakSeries("free-01", angle, np.full(30, 3e-4), np.where(used, angle, np.nan), used, band)], PRISM
-    )
+    return peak_decay([PeakSeries("free-01", angle, np.full(30, 3e-4), np.where(used, angle, np.nan), used)], PRISM)

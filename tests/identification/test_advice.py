@@ -28,7 +28,6 @@ def test_agreeing_tests_are_enough_and_scattered_ones_are_not():
     assert agreeing.is_enough
     assert agreeing.needed == 0
     assert not scattered.is_enough
-    assert scattered.limited_by == "scatter"
     assert scattered.needed is None or scattered.needed > 5
 
 

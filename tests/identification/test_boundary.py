@@ -110,7 +110,6 @@ def test_the_first_test_halves_the_prior():
     assert advice.amplitude_ratio == pytest.approx(2.0, rel=0.005)
     assert advice.risk == pytest.approx(0.5, abs=0.02)
     assert 0.5 < advice.information < 1.0
-    assert advice.repeats == 0
 
 
 @pytest.mark.parametrize("risk", [0.1, 0.3])
@@ -124,16 +123,6 @@ def test_a_smaller_risk_costs_information_and_tests(risk):
 def test_a_risk_below_every_test_gives_the_test_with_the_least():
     advice = advise(BRACKETED, risk=0.001)
     assert 0.001 < advice.risk < 0.05
-
-
-def test_scattered_outcomes_lead_to_repeats():
-    amplitudes, outcomes = [1.9, 2.0, 2.0, 2.1, 1.96, 2.04], [False, False, True, True, True, False]
-    for number in range(8):
-        advice = advise(SineTests(2.0, amplitudes, outcomes), width=0.02)
-        assert advice.repeats == sum(abs(np.log(each / advice.amplitude_ratio)) < 0.005 for each in amplitudes)
-        amplitudes.append(advice.amplitude_ratio)
-        outcomes.append(number % 2 == 0)
-    assert advice.repeats > 0
 
 
 def test_a_narrow_interval_is_enough():

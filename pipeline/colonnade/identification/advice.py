@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log
-from typing import Literal
 
 import numpy as np
 import scipy
@@ -45,9 +44,6 @@ class RestitutionAdvice:
         Of the interval after 1, 2, … more tests from the largest release.
     needed : int or None
         More tests until it is as small as wanted; 0 if it is, None if more than `FARTHEST`.
-    limited_by : {"test", "scatter"}
-        The larger of the error of a test and the scatter between tests. By scatter, better single tests do not help:
-        only more of them do.
     """
 
     pooled: Pooled
@@ -55,7 +51,6 @@ class RestitutionAdvice:
     half_width: float
     predicted_half_width: Array
     needed: int | None
-    limited_by: Literal["test", "scatter"]
 
 
 def advise_free_vibration(
@@ -94,8 +89,8 @@ def advise_free_vibration(
     >>> advice = advise_free_vibration(
     ...     [0.9755, 0.9761, 0.9758], [3e-4, 3e-4, 3e-4], [0.6, 0.5, 0.7], wanted_half_width=0.001, largest_release=0.7
     ... )
-    >>> advice.is_enough, advice.needed, advice.limited_by
-    (True, 0, 'scatter')
+    >>> advice.is_enough, advice.needed
+    (True, 0)
     """
     error, release = np.asarray(standard_error, dtype=np.float64), np.asarray(release_ratio, dtype=np.float64)
     pooled = pool(restitution, error, level=level)
@@ -108,8 +103,7 @@ def advise_free_vibration(
     is_enough = error.size > 1 and half_width <= wanted_half_width
     reached = more[predicted <= wanted_half_width]
     needed = 0 if is_enough else int(reached[0]) if reached.size else None
-    limited_by: Literal["test", "scatter"] = "scatter" if scatter > test_error else "test"
-    return RestitutionAdvice(pooled, is_enough, half_width, predicted, needed, limited_by)
+    return RestitutionAdvice(pooled, is_enough, half_width, predicted, needed)
 
 
 def _impacts(release: ArrayLike) -> Array:

@@ -38,9 +38,6 @@ Probability of an outcome that has nothing to do with the boundary: an island of
 below it, or a disturbed test (the lapse of Wichmann and Hill 2001).
 """
 
-SAME_AMPLITUDE = 0.005
-"""Tests whose A differ by less, relative, repeat each other: tables achieve an amplitude no better."""
-
 
 @dataclass(frozen=True)
 class SineTests:
@@ -119,8 +116,6 @@ class SineAdvice:
         bit, that its outcome is expected to say about the boundary.
     risk : float
         Predicted probability that the specimen overturns in it. Above the largest one allowed only if every test is.
-    repeats : int
-        Tests so far at this A.
     left : int
         About how many tests are left, this one included, until the interval is as narrow as wanted.
     """
@@ -130,7 +125,6 @@ class SineAdvice:
     amplitude_ratio: float
     information: float
     risk: float
-    repeats: int
     left: int
 
 
@@ -212,8 +206,8 @@ def advise_sine_tests(
     --------
     >>> new = SineTests(predicted=1.9)
     >>> [advice] = advise_sine_tests([new], wanted_width=0.05, largest_risk=1.0)
-    >>> round(advice.amplitude_ratio, 1), round(advice.risk, 1), advice.repeats, advice.is_enough
-    (1.9, 0.5, 0, False)
+    >>> round(advice.amplitude_ratio, 1), round(advice.risk, 1), advice.is_enough
+    (1.9, 0.5, False)
     """
     boundaries = find_boundaries(tests, discrepancy=discrepancy)
     return [_advise(each, wanted_width, largest_risk) for each in boundaries]
@@ -224,16 +218,13 @@ def _advise(boundary: Boundary, wanted_width: float, largest_risk: float) -> Sin
     allowed = risk <= largest_risk
     best = int(np.argmax(np.where(allowed, information, -1.0))) if allowed.any() else int(np.argmin(risk))
     amplitude = boundary.tests.predicted * float(np.exp(boundary.offset[best]))
-    repeats = np.abs(np.log(np.divide(boundary.tests.amplitude_ratio, amplitude))) < SAME_AMPLITUDE
     width = boundary.relative_width
     is_enough = width <= wanted_width
     # Each bit halves the interval; a test says less as it nears σ: the mean of the next one's bits and the last one's.
     at_last = _normal(boundary.offset, log1p(wanted_width) / (2 * scipy.special.ndtri((1 + LEVEL) / 2)))
     least = float(_expected(at_last[:, None] * boundary.weight.sum(axis=0))[1].max())
     left = 0 if is_enough else ceil(2 * log2(width / wanted_width) / (float(information[best]) + least))
-    return SineAdvice(
-        boundary, is_enough, amplitude, float(information[best]), float(risk[best]), int(repeats.sum()), left
-    )
+    return SineAdvice(boundary, is_enough, amplitude, float(information[best]), float(risk[best]), left)
 
 
 def _expected(weight: Array) -> tuple[Array, Array]:

@@ -12,7 +12,7 @@ from math import log, nan
 from typing import get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome
@@ -68,15 +68,14 @@ class Forecast:
         return float(np.mean(self.outcomes == OVERTURNED))
 
 
-def forecast_of(peak_ratio: ArrayLike, overturning_time: ArrayLike) -> Forecast:
+def forecast_of(peak_ratio: Sequence[float | None] | Array) -> Forecast:
     """
     Take the members of an ensemble of a model as a forecast.
 
     Parameters
     ----------
-    peak_ratio, overturning_time : array_like, shape (m,)
-        As of `dynamics.ensemble`: max |θ|/α; s, NaN for a member that stands. The peak of one that overturned does
-        not count.
+    peak_ratio : array_like, shape (m,)
+        max |θ|/α; NaN or None of a member that overturned.
 
     Returns
     -------
@@ -84,27 +83,15 @@ def forecast_of(peak_ratio: ArrayLike, overturning_time: ArrayLike) -> Forecast:
 
     Examples
     --------
-    >>> forecast = forecast_of([0.0002, 0.4, float("nan")], [float("nan"), float("nan"), 3.1])
+    >>> forecast = forecast_of([0.0002, 0.4, None])
     >>> forecast.outcomes.tolist(), forecast.amplitudes.tolist()
     ([0, 1, 2], [0.0, 0.4, 1.0])
     """
-    peaks, overturned = np.asarray(peak_ratio, dtype=np.float64), np.isfinite(overturning_time)
+    peaks = np.asarray(peak_ratio, dtype=np.float64)
+    overturned = np.isnan(peaks)
     rocked = overturned | (peaks > NO_ROCKING_RATIO)
-    outcomes = rocked.astype(np.int8) + overturned
-    return Forecast(outcomes, np.where(overturned, 1.0, np.where(rocked, np.minimum(peaks, 1.0), 0.0)))
-
-
-def forecast_of_peaks(peak_ratio: Sequence[float | None]) -> Forecast:
-    """
-    Take members that are known by max |θ|/α alone, None for one that overturned, as a forecast.
-
-    Examples
-    --------
-    >>> forecast_of_peaks([0.0002, 0.4, None]).amplitudes.tolist()
-    [0.0, 0.4, 1.0]
-    """
-    peaks = np.array([np.nan if peak is None else peak for peak in peak_ratio])
-    return forecast_of(peaks, np.where(np.isnan(peaks), 1.0, np.nan))
+    amplitudes = np.where(overturned, 1.0, np.where(rocked, np.minimum(peaks, 1.0), 0.0))
+    return Forecast(rocked.astype(np.int8) + overturned, amplitudes)
 
 
 def base_rates(observed: Sequence[Response]) -> list[Forecast]:
@@ -126,38 +113,23 @@ def base_rates(observed: Sequence[Response]) -> list[Forecast]:
     return [Forecast(np.delete(outcomes, test), np.delete(amplitudes, test)) for test in range(len(observed))]
 
 
-@dataclass(frozen=True)
-class Scores:
+def score(forecast: Forecast, observed: Response) -> dict[str, float]:
     """
-    Scores of one forecast, see the functions of the same names.
+    Score a forecast by what was observed.
 
-    Attributes
-    ----------
-    crps : float
-        Of the amplitude, in units of α.
-    ranked_probability : float
-        Of the outcome, 0 to 2.
-    brier : float
-        Of overturning, 0 to 1.
-    logarithmic : float
-        Of overturning, in nats.
+    Returns
+    -------
+    scores : dict of str to float
+        `crps` of the amplitude, in units of α; `ranked_probability` of the outcome, 0 to 2; of overturning `brier`, 0
+        to 1, and `logarithmic`, in nats. See the functions of these names.
     """
-
-    crps: float
-    ranked_probability: float
-    brier: float
-    logarithmic: float
-
-
-def score(forecast: Forecast, observed: Response) -> Scores:
-    """Score a forecast by what was observed."""
     overturning = int(np.sum(forecast.outcomes == OVERTURNED)), forecast.outcomes.size
-    return Scores(
-        crps=crps(forecast.amplitudes, observed.amplitude),
-        ranked_probability=ranked_probability_score(forecast, observed),
-        brier=brier_score(*overturning, happened=observed.outcome == OVERTURNED),
-        logarithmic=logarithmic_score(*overturning, happened=observed.outcome == OVERTURNED),
-    )
+    return {
+        "crps": crps(forecast.amplitudes, observed.amplitude),
+        "ranked_probability": ranked_probability_score(forecast, observed),
+        "brier": brier_score(*overturning, happened=observed.outcome == OVERTURNED),
+        "logarithmic": logarithmic_score(*overturning, happened=observed.outcome == OVERTURNED),
+    }
 
 
 def crps(members: ArrayLike, observed: float) -> float:
@@ -340,57 +312,27 @@ def coverage(pit: Array, forecasts: Sequence[Forecast], campaigns: ArrayLike) ->
         As of `randomised_pit`: at the edge of a band that is an atom, its share of the tests counts.
     forecasts : sequence of Forecast, length n
     campaigns : array_like, shape (n,)
-        As of `surrogate_members`, for the interval.
+        Number of the campaign of each test: for the interval, the same member is taken as observed in all its tests. If
+        members of two tests share nothing, that is as good as any two.
 
     Returns
     -------
     coverage : Coverage
-
-    Raises
-    ------
-    ValueError
-        As of `surrogate_members`.
     """
     random = np.random.default_rng((0, 1))
-    members = surrogate_members(forecasts, campaigns)
-    drawn = np.column_stack(
-        [
-            _pits_of_members(forecast.amplitudes, random)[chosen]
-            for forecast, chosen in zip(forecasts, members.T, strict=True)
-        ]
-    )
-    low, high = np.quantile(_shares(drawn), [0.025, 0.975], axis=0)
+    names, place = np.unique(np.asarray(campaigns), return_inverse=True)
+    drawn = np.random.default_rng(0).random((RESAMPLES, names.size))[:, place]
+    pits = np.empty(drawn.shape)
+    for test, forecast in enumerate(forecasts):
+        members = forecast.amplitudes
+        # Of each member among all others.
+        below, most = (np.searchsorted(np.sort(members), members, side) for side in ("left", "right"))
+        of_member = (below + random.random(members.size) * (most - below)) / members.size
+        pits[:, test] = of_member[(drawn[:, test] * members.size).astype(np.intp)]
+    low, high = np.quantile(_shares(pits), [0.025, 0.975], axis=0)
     return Coverage(np.array(BANDS), _shares(pit[None])[0], low, high)
 
 
 def _shares(pit: Array) -> Array:
     """Share of the tests in each of `BANDS`, shape (r, b), of values of shape (r, n)."""
     return np.asarray(np.mean(np.abs(pit[:, None, :] - 0.5) <= np.array(BANDS)[:, None] / 2, axis=2))
-
-
-def _pits_of_members(members: Array, random: np.random.Generator) -> Array:
-    """Of each member among all others, shape (m,)."""
-    ranked = np.sort(members)
-    below, most = (np.searchsorted(ranked, members, side) for side in ("left", "right"))
-    return np.asarray((below + random.random(members.size) * (most - below)) / members.size)
-
-
-def surrogate_members(forecasts: Sequence[Forecast], campaigns: ArrayLike) -> NDArray[np.intp]:
-    """
-    Draw a member of each forecast that is taken as if it had been observed.
-
-    Parameters
-    ----------
-    forecasts : sequence of Forecast, length n
-    campaigns : array_like, shape (n,)
-        Number of the campaign of each test.
-
-    Returns
-    -------
-    members : ndarray of int, shape (RESAMPLES, n)
-        The same member in all tests of a campaign; if members of two tests share nothing, that is as good as any two.
-    """
-    sizes = np.array([each.outcomes.size for each in forecasts])
-    names, place = np.unique(np.asarray(campaigns), return_inverse=True)
-    drawn = np.random.default_rng(0).random((RESAMPLES, names.size))
-    return np.asarray(drawn[:, place] * sizes, dtype=np.intp)

@@ -189,7 +189,6 @@ def _with_sine(compared: Dataset, rocking: Dataset, predicted: Mapping[str, Data
         {
             "forcing_frequency": forcing.frequency,
             "forcing_amplitude": forcing.amplitude,
-            "forcing_amplitude_spread": forcing.amplitude_spread,
             "forcing_distortion": forcing.distortion,
             "steady_start": forcing.start,
             "steady_stop": forcing.stop,

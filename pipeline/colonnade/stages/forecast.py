@@ -9,7 +9,7 @@ from colonnade.campaign.forms.forecast import ForecastFile, ForecastInputs
 from colonnade.dynamics.ensemble import PlanePlan
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
-from colonnade.identification.forecasts import Response, forecast_of, forecast_of_peaks, randomised_pit, score
+from colonnade.identification.forecasts import Response, forecast_of, randomised_pit, score
 from colonnade.stages.parts.beginning import base_acceleration
 from colonnade.store.provenance import Inputs
 
@@ -58,14 +58,13 @@ def score_forecast(rocking: Dataset, forecast: ForecastFile, inputs: ForecastSco
     found = np.full((len(SCORES) + 2, len(names), len(BASES)), np.nan)
     for row, (name, model) in enumerate(forecast.models.items()):
         ensembles = {
-            "on_target": forecast_of_peaks(model.peak_ratio),
-            "rigid_body": forecast_of_peaks(model.rigid_body_peak_ratio),
+            "on_target": forecast_of(model.peak_ratio),
+            "rigid_body": forecast_of(model.rigid_body_peak_ratio),
         }
         if motion is not None:
-            members = plan_of(forecast.inputs, name, motion).run()
-            ensembles["on_recorded"] = forecast_of(members.peak_ratio, members.overturning_time)
+            ensembles["on_recorded"] = forecast_of(plan_of(forecast.inputs, name, motion).run().peak_ratio)
         for basis, ensemble in ensembles.items():
-            scores = vars(score(ensemble, observed))
+            scores = score(ensemble, observed)
             # A draw of its own for each file, the same in each run.
             seed = int(forecast.motion.sha256[:8], 16) ^ int(forecast.made.timestamp())
             pit = float(randomised_pit([ensemble], [observed], seed=seed)[0])

@@ -15,7 +15,7 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import RecordedAs
 from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
-from colonnade.errors import StageError, count
+from colonnade.errors import ReadError, StageError, count
 from colonnade.findings import Finding, serious, warning
 from colonnade.readers.clock import moment_after
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -244,9 +244,12 @@ def reviewed(name: str, time: Array, review: Review) -> list[quality.Verdict]:
 
 def find_column(recording: Recording, name: str, channel: RecordedAs, rate: float | None) -> RecordedChannel:
     """Find the column of a channel, with its times; `rate` is that of the recorder, Hz, if its file has no clock."""
-    if channel.time is not None:
-        return recording.on_clock(channel.column, channel.time)
-    column = recording.channel(channel.column)
+    try:
+        if channel.time is not None:
+            return recording.on_clock(channel.column, channel.time)
+        column = recording.channel(channel.column)
+    except ReadError as error:
+        raise ReadError(f"channel {name}: {error}") from error
     if rate is not None:
         return replace(column, time=np.arange(column.values.size) / rate)
     if column.time is None:

@@ -129,8 +129,7 @@ def _warnings(result: Restitution) -> list[Finding]:
 
 
 def _identified(rocking: Dataset, inputs: RestitutionInputs) -> Restitution:
-    names = {"out_of_plane": "out_of_plane_angle", "slide": "slide", "uplift": "uplift"}
-    names["base_acceleration"] = "base_acceleration"
+    names = {"out_of_plane": "out_of_plane_angle", "slide": "slide", "base_acceleration": "base_acceleration"}
     beside: dict[str, Any] = {name: rocking[each].to_numpy() for name, each in names.items() if each in rocking}
     return identify_restitution(
         rocking["elapsed"].to_numpy(),

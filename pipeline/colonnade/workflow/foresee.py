@@ -266,7 +266,7 @@ def _by_model(inputs: forms.ForecastInputs, model: str, motion: Motion) -> forms
     shaken = felt(inputs, motion)
     plan = plan_of(inputs, model, shaken)
     members = plan.run()
-    expected = forecast_of(members.peak_ratio, members.overturning_time)
+    expected = forecast_of(members.peak_ratio)
     shares = {
         outcome.replace("-", "_"): float(np.mean(expected.outcomes == place)) for place, outcome in enumerate(OUTCOMES)
     }

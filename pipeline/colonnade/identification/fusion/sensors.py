@@ -317,15 +317,12 @@ def is_separated(designs: Array, sigma: Array) -> bool:
 
 def _refuse_unseen(rotation: Array) -> None:
     seen = np.asarray((np.abs(rotation) > 0).any(axis=1))
-    if not seen.any():
-        raise UnseenRotationError(
-            "No transducer measures the rotation: each is at the height of the base, or points across the plane. Add "
-            "a displacement transducer above the base, with a direction along x"
-        )
     if not seen.all():
+        side = f" at θ {'>' if seen[0] else '<'} 0" if seen.any() else ""
         raise UnseenRotationError(
-            f"No transducer measures the rotation at θ {'>' if seen[0] else '<'} 0: each is on the edge that the "
-            "specimen then rocks about. Add a vertical one on the other edge, or one above the base along x"
+            f"No transducer measures the rotation{side}: each is at the height of the base, points across the plane, "
+            "or is on the edge that the specimen rocks about. Add a displacement transducer above the base, with a "
+            "direction along x"
         )
 
 

@@ -57,7 +57,6 @@ class TableChannel(NamedTuple):
     name: str
     values: Array
     noise: float
-    recorder: str = "main"
     is_good: bool = True
 
 
@@ -206,9 +205,7 @@ def _disagreement(acceleration: TableChannel, displacement: TableChannel, found:
         )
     why, ratio = cause(found.factor, "acceleration"), 1 / found.factor
     if why == UNKNOWN:
-        why = "look at gain, range and AC coupling"
-        if acceleration.recorder != displacement.recorder:
-            why += f", or whether the file of recorder {acceleration.recorder} is that of another test"
+        why = "look at gain, range and AC coupling, or whether one of them is from the file of another test"
     if wrong == "acceleration":
         why += f". The peak acceleration is then {ratio:.3g} times what is given"
     elif not wrong:

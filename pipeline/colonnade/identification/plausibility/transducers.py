@@ -53,12 +53,6 @@ DEAD = 0.1
 """Share of what others give below which a channel is dead."""
 
 
-def lever(response: Array) -> float:
-    """Give the slope about rest of what a transducer reads at `ANGLES` (m or rad) over the angle."""
-    low, high = np.interp((-SMALL, SMALL), ANGLES, response)
-    return float(high - low) / (2 * SMALL)
-
-
 @dataclass(frozen=True, eq=False)
 class Gauge:
     """
@@ -87,8 +81,9 @@ class Gauge:
 
     @cached_property
     def lever(self) -> float:
-        """Reading over angle about rest."""
-        return lever(self.response)
+        """Slope of the reading over the angle about rest."""
+        low, high = np.interp((-SMALL, SMALL), ANGLES, self.response)
+        return float(high - low) / (2 * SMALL)
 
     def angle(self, scale: float = 1.0) -> Array:
         """θ (n,) if its readings are `scale` times too large; beyond `ANGLES` by its lever."""

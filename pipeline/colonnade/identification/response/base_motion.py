@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -66,8 +66,7 @@ def table_moves(acceleration: Array, interval: float, block: Block) -> bool:
     return base_velocity(acceleration, interval, block) > LEAST_MOTION
 
 
-@dataclass(frozen=True)
-class Forcing:
+class Forcing(NamedTuple):
     """
     A steady sine.
 
@@ -75,9 +74,8 @@ class Forcing:
     ----------
     frequency : float
         Hz.
-    amplitude, amplitude_spread : float
-        In the unit of the motion: of the fundamental over the steady part, and the standard deviation of its level
-        from period to period.
+    amplitude : float
+        In the unit of the motion, of the fundamental over the steady part.
     start, stop : float
         s, of the steady part.
     distortion : float
@@ -86,15 +84,9 @@ class Forcing:
 
     frequency: float
     amplitude: float
-    amplitude_spread: float
     start: float
     stop: float
     distortion: float
-
-    @property
-    def cycles(self) -> float:
-        """Length of the steady part in periods."""
-        return (self.stop - self.start) * self.frequency
 
 
 def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
@@ -135,7 +127,7 @@ def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
             return None
         phase = np.unwrap(np.angle(level[steady]))
         frequency += float(np.polyfit(times[steady] - times[steady.start], phase, 1)[0]) / (2 * np.pi)
-    return _fitted(times[steady], values[steady], np.abs(level[steady])[::samples], frequency)
+    return _fitted(times[steady], values[steady], frequency)
 
 
 def _strongest_line(values: Array, interval: float) -> float:
@@ -160,12 +152,11 @@ def _steady_part(level: Array, samples: int) -> slice:
     return slice(start, stop) if stop - start > samples else slice(0, 0)
 
 
-def _fitted(time: Array, values: Array, levels: Array, frequency: float) -> Forcing:
+def _fitted(time: Array, values: Array, frequency: float) -> Forcing:
     angle = 2 * np.pi * frequency * (time - time[0])
     design = np.column_stack((np.ones_like(angle), np.sin(angle), np.cos(angle)))
     coefficients, *_ = np.linalg.lstsq(design, values, rcond=None)
     amplitude = float(np.hypot(coefficients[1], coefficients[2]))
     rest = values - design @ coefficients
-    deviation = float(np.std(levels, ddof=1)) if levels.size > 1 else 0.0
     distortion = float(np.sqrt(2 * np.mean(rest**2))) / amplitude
-    return Forcing(frequency, amplitude, deviation, float(time[0]), float(time[-1]), distortion)
+    return Forcing(frequency, amplitude, float(time[0]), float(time[-1]), distortion)

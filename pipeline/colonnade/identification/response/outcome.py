@@ -11,8 +11,8 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO, Outcome, amplitude
 from colonnade.findings import Finding, serious, warning
+from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.arcs import find_impacts
-from colonnade.signals.filters import lowpass
 from colonnade.signals.rest import drift, find_rest
 
 HELD = 0.5
@@ -38,12 +38,6 @@ UPRIGHT = 0.02
 
 LASTING = 0.05
 """|θ|/α above which it matters that a record ends in motion."""
-
-SHAKEN = 0.1
-"""Of its peak acceleration, above which the table has not come to rest."""
-
-ROCKS_AT_MOST = 10.0
-"""Over p: angular frequency up to which a table rocks a block; above it a base derived from displacement is noise."""
 
 CYCLES = 3.0
 """Over p: length of the end of a record on which small rocking shows its middle."""
@@ -198,7 +192,8 @@ def ending(
     if not tail.size:
         return None
     lasting = float(amplitude(tail, block).max())
-    shaken = base is not None and not rest.quiet and _is_shaken(time, base, block, rest.start)
+    interval = float(np.median(np.diff(time)))
+    shaken = base is not None and not rest.quiet and table_moves(base[time >= rest.start], interval, block)
     # On a table at rest the motion only dies.
     if shaken and lasting > LASTING:
         return warning(
@@ -219,11 +214,3 @@ def ending(
         "overturned.",
         follows=LOST,
     )
-
-
-def _is_shaken(time: Array, base: Array, block: Block, start: float) -> bool:
-    """Whether what can rock the block is not small from `start` on, over all of the record."""
-    interval = float(np.median(np.diff(time)))
-    cutoff = min(ROCKS_AT_MOST * block.p / (2 * np.pi), 0.4 / interval)
-    felt = np.abs(lowpass(np.nan_to_num(base), interval, cutoff))
-    return bool(felt[time >= start].max() > SHAKEN * felt.max())

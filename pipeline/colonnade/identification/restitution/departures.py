@@ -16,7 +16,7 @@ from colonnade.identification.restitution.scatter import SCATTERS
 from colonnade.units.text import format_percent
 
 NOISE_MARGIN = 5.0
-"""Standard errors from which on a rotation, a slide or an uplift is one."""
+"""Standard errors from which on a rotation or a slide is one."""
 
 LARGEST_SHARE = 0.1
 """Of |θ|, up to which a rotation out of the plane is let pass."""
@@ -26,9 +26,6 @@ FEWEST_LATER = 6
 
 SURE = 4.5
 """Standard errors from which on the sides differ."""
-
-LEAST_LIFT = 0.02
-"""Share of the half-width by which the base is lifted off both edges in a bounce."""
 
 FRICTION = 0.3
 """Coefficient assumed for the energy of a slide; ..."""
@@ -45,11 +42,6 @@ LEAST_CHANGE, FEWEST_IMPACTS = 0.005, 5
 LARGEST_SCATTER, SURELY = 0.01, 0.99
 """Standard deviation of e from impact to impact above which, as sure as this, not impacts alone change the energy."""
 
-LEAST_FALL = 2.0
-"""Times by which the residual of a history falls with the base turned round, from which it is recorded so."""
-
-MOVING = "moving table"
-
 
 def find_beside(time: Array, measured: dict[str, Array], record: Record) -> Iterator[Departure]:
     """Look for departures in what was measured beside the angle, on a table at rest."""
@@ -59,8 +51,6 @@ def find_beside(time: Array, measured: dict[str, Array], record: Record) -> Iter
         yield from find_rotation(time, measured["out_of_plane"], record)
     if "slide" in measured:
         yield from find_sliding(time, measured["angle"] - record.zero, measured["slide"], record)
-    if "uplift" in measured:
-        yield from find_bouncing(time, measured["uplift"], record)
 
 
 def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Iterator[Departure]:
@@ -132,43 +122,12 @@ def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Ite
     )  # fmt: skip
 
 
-def find_bouncing(time: Array, uplift: Array, record: Record) -> Iterator[Departure]:
-    """Look for impacts after which the base (height in m) is in the air."""
-    noise = noise_level(uplift[np.isfinite(uplift)])
-    threshold = max(LEAST_LIFT * record.block.governing.half_width, NOISE_MARGIN * noise)
-    lifts = np.array([np.nanmax(uplift[piece], initial=0.0) for piece in record.counted.pieces(time, 0.0, 0.4)])
-    count, size = int((lifts > threshold).sum()), float(lifts.max(initial=0.0))
-    if count:
-        yield Departure(
-            "bouncing", size, noise, "m",
-            f"The base leaves the table after {count} of {lifts.size} impacts, by up to {1e3 * size:.3g} ± "
-            f"{1e3 * noise:.1g} mm: the block bounces, and e includes that loss.",
-        )  # fmt: skip
-
-
 def scatters(found: Estimated) -> bool:
     """Whether e of single impacts scatters more than impacts alone explain, beyond any change with their speed."""
     if found.path.count <= FEWEST_IMPACTS:
         return False
     large = found.restitution * SCATTERS > LARGEST_SCATTER
     return bool(found.answer.weights[large].sum() > SURELY)
-
-
-def find_turned(turned: Estimated | None, *others: Estimated | None) -> Iterator[Departure]:
-    """Name a base whose acceleration explains the angle with its sign turned only: as recorded it would bend e."""
-    if turned is None:
-        return
-    residual, *rest = (float(each.path.power**0.5) for each in (turned, *others) if each is not None)
-    if rest and min(rest) < LEAST_FALL * residual:
-        return
-    otherwise = f"it is {1e3 * min(rest):.2g} mrad off" if rest else "no history follows it"
-    yield Departure(
-        MOVING, min(rest, default=0.0), residual, "rad",
-        f"With the sign of the table's acceleration turned, a history follows the angle to {1e3 * residual:.2g} mrad; "
-        f"as recorded, or with a table at rest, {otherwise}. Correct the `direction` of the accelerometer or of the "
-        "transducers, or the sign of a gain.",
-        refuses=True,
-    )  # fmt: skip
 
 
 def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
@@ -197,7 +156,7 @@ def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
             'table\'s acceleration (on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
         )
         yield Departure(
-            MOVING, scatter, scatter / (2 * e.size) ** 0.5, "1",
+            "moving table", scatter, scatter / (2 * e.size) ** 0.5, "1",
             f"e of single impacts scatters by {scatter:.3g}, from {e.min():.3f} to {e.max():.3f}; up to "
             f"{LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
             refuses=True,

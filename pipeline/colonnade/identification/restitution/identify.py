@@ -66,7 +66,6 @@ def identify_restitution(
     uncertainty: Uncertainty = KNOWN,
     out_of_plane: ArrayLike | None = None,
     slide: ArrayLike | None = None,
-    uplift: ArrayLike | None = None,
     base_acceleration: ArrayLike | None = None,
 ) -> Restitution:
     """
@@ -89,9 +88,9 @@ def identify_restitution(
     uncertainty : Uncertainty, optional
         Of the block and the angle: `critical_angle`, `p` and `angle_gain` count. `Uncertainty()` is an exactly known
         block.
-    out_of_plane, slide, uplift : array_like, shape (n,), optional
-        Rotation about x (rad), displacement of the pole and height of the base (m), if measured: departures from
-        plane rocking are then seen directly.
+    out_of_plane, slide : array_like, shape (n,), optional
+        Rotation about x (rad) and displacement of the pole (m), if measured: departures from plane rocking are then
+        seen directly.
     base_acceleration : array_like, shape (n,), optional
         Of the base along x, m/s², at even steps. If it moves the table (`base_motion.table_moves`), and the angle is
         explained better so than by a table at rest and a noisy accelerometer, it drives the history.
@@ -123,7 +122,7 @@ def identify_restitution(
     """
     _check_settings(block, level, lowest_amplitude, noise, lowpass, uncertainty)
     times, measured = _checked(
-        time, angle=angle, out_of_plane=out_of_plane, slide=slide, uplift=uplift, base_acceleration=base_acceleration
+        time, angle=angle, out_of_plane=out_of_plane, slide=slide, base_acceleration=base_acceleration
     )
     angles = measured["angle"]
     if np.isfinite(angles).sum() < FEWEST_SAMPLES:
@@ -139,13 +138,10 @@ def identify_restitution(
     found, why = follow(record)
     driven, departing = False, list[Departure]()
     if base is not None:
-        (recorded, why_not), (turned, _) = (
-            follow(replace(record, samples=thinned(times, angles, block, sign * base))) for sign in (1.0, -1.0)
-        )
-        departing += departures.find_turned(turned, recorded, found)
+        recorded, why_not = follow(replace(record, samples=thinned(times, angles, block, base)))
         # An accelerometer may have more noise than a table at rest may move.
         better = found is None or (recorded is not None and recorded.path.power < found.path.power)
-        driven = better or bool(departing) or (found is not None and departures.scatters(found))
+        driven = better or (found is not None and departures.scatters(found))
         found, why = (recorded, why_not) if driven else (found, why)
     if not driven:
         record = record if found is None else replace(record, zero=found.zero)
@@ -153,7 +149,7 @@ def identify_restitution(
         if left_out := max((each.left_out for each in departing), default=0):
             record = replace(record, left_out=left_out)
             found, why = follow(record)
-    if found is not None and not (driven and departing):
+    if found is not None:
         departing += departures.find_within(found, driven=driven)
     moves = None if moves is None else driven
     return replace(_result(record, found, why, uncertainty, level, departing, driven=driven), table_moves=moves)

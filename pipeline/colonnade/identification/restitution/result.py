@@ -222,8 +222,7 @@ class Departure:
     Attributes
     ----------
     name : str
-        "three-dimensional rocking", "sliding", "bouncing", "unequal sides", "speed-dependent restitution" or
-        "moving table".
+        "three-dimensional rocking", "sliding", "unequal sides", "speed-dependent restitution" or "moving table".
     size, standard_error : float
         In `unit`; the sentence says what is measured.
     unit : str

@@ -92,11 +92,10 @@ def _sine(test: Test, stored: Stored) -> list[Fact]:
     )
     if isnan(frequency):
         return []
-    spread = stored.value("compare", "forcing_amplitude_spread")
     asked = test.frequency
     return [
         ("frequency", quantity(frequency, "Hz", 4) + (f"; asked for: {quantity(asked, 'Hz', 4)}" if asked else "")),
-        ("amplitude", f"{quantity(amplitude, 'm/s²')} ± {quantity(spread, 'm/s²', 2)} from period to period"),
+        ("amplitude", quantity(amplitude, "m/s²")),
         ("distortion", f"{percent(distortion)} (RMS of what is not the sine, over that of the sine)"),
         ("steady from", f"{quantity(start, 's', 4)} to {quantity(stop, 's', 4)}"),
     ]

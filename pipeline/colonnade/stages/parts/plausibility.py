@@ -87,8 +87,7 @@ def _along_x(conditioned: Dataset, channels: Mapping[str, Vector]) -> list[Table
             # The scale of a channel can be judged where its largest values are beyond doubt.
             peaks = np.abs(values) >= PEAKS * np.abs(values).max()
             is_good = bool((conditioned[f"{name}_quality"].to_numpy()[peaks] == Flag.GOOD).mean() > 0.5)
-            noise, recorder = float(given.get("noise", 0.0)), str(given.get("recorder", "main"))
-            found.append(TableChannel(given["channel"], values, noise, recorder, is_good))
+            found.append(TableChannel(given["channel"], values, float(given.get("noise", 0.0)), is_good))
     return found
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign.forms.forecast import ForecastBand, ForecastFile, ForecastTable, ModelForecast
 from colonnade.campaign.forms.foreseen import ForecastCoverage, ForecastScores, JudgedForecasts
-from colonnade.identification.forecasts import Forecast, Response, base_rates, coverage, forecast_of_peaks, score, skill
+from colonnade.identification.forecasts import Forecast, Response, base_rates, coverage, forecast_of, score, skill
 from colonnade.units.text import format_percent, number, quantity
 
 BANDS = ["50 % of max |θ|/α", "80 % of max |θ|/α", "95 % of max |θ|/α"]
@@ -83,7 +83,7 @@ def scored_of(model: str, forecasts: Mapping[str, ForecastFile], scores: Mapping
     tests = [test for test in scores if model in forecasts[test].models]
     own = [scores[test].sel(model=model) for test in tests]
     return Scored(
-        [forecast_of_peaks(forecasts[test].models[model].peak_ratio) for test in tests],
+        [forecast_of(forecasts[test].models[model].peak_ratio) for test in tests],
         [Response.observed(each.attrs["outcome"], float(each["observed_amplitude"])) for each in own],
         np.array([float(each["forecast_pit"].sel(basis="on_target")) for each in own]),
         {
@@ -120,7 +120,7 @@ def _mean(scores: Array) -> ForecastScores:
 
 def _base_rate(observed: list[Response]) -> Array:
     rates = zip(base_rates(observed), observed, strict=True)
-    return np.array([[getattr(score(*pair), key) for key in SCORES] for pair in rates])
+    return np.array([list(score(*pair).values()) for pair in rates])
 
 
 def _skill(own: Array, reference: Array) -> ForecastScores:

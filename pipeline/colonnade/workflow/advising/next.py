@@ -168,14 +168,12 @@ def advise_free(
     e, half = advised.pooled.value, advised.half_width
     known = f"e {interval(e, e - half, e + half)} from {of}"
     after = format_uncertain(advised.pooled.value, float(advised.predicted_half_width[0]))
-    limit = "the scatter between tests" if advised.limited_by == "scatter" else "the error of a single test"
     advice = Advice(
         specimen=specimen,
         kind="free-vibration",
         test=f"release from {number(LARGEST_RELEASE, 2)} α",  # the records keep no side
         is_enough=advised.is_enough,
-        reason=known
-        + (", as narrow as wanted" if advised.is_enough else f"; one more test: about {after}; limited by {limit}"),
+        reason=known + (", as narrow as wanted" if advised.is_enough else f"; one more test: about {after}"),
         left=advised.needed,
         values={
             "restitution": advised.pooled.value,

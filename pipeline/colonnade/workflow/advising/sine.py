@@ -135,13 +135,12 @@ def _advice(
         f"overturning begins between A {number(low)} and {number(high)} ({format_percent(0.9)}; {model} model: "
         f"{number(advised.boundary.tests.predicted)})"
     )
-    again = f", and outcomes scatter: test {advised.repeats + 1} at this amplitude" if advised.repeats else ""
     return Advice(
         specimen=specimen,
         kind="sine",
         test=f"{number(frequency)} Hz at {quantity(acceleration, 'g')} (A {number(advised.amplitude_ratio)})",
         is_enough=advised.is_enough,
-        reason=known + (", as narrow as wanted" if advised.is_enough else again),
+        reason=known + (", as narrow as wanted" if advised.is_enough else ""),
         risk=advised.risk,
         left=advised.left,
         demand=demand,
