@@ -84,17 +84,21 @@ INCLINOMETER = Transducer("angle", Y)
 @every(
     ("transducers", "unknowns", "words"),
     [
-        ([TOP], ["rocking_angle"], "angle only, from one displacement transducer; slide cannot be separated from it"),
+        (
+            [TOP],
+            ["rocking_angle"],
+            "angle only, from 1 displacement transducer; slide cannot be separated",
+        ),
         ([TOP, BOTTOM], ["rocking_angle", "slide"], "angle and slide, from 2 displacement transducers"),
         ([TOP, INCLINOMETER], ["rocking_angle", "slide"], "angle and slide, from 2 transducers"),
-        ([TOP, LEFT_EDGE], ["rocking_angle"], "slide and uplift cannot be separated from it and are taken as zero"),
+        ([TOP, LEFT_EDGE], ["rocking_angle"], "slide and uplift cannot be separated: taken as zero"),
         ([LEFT_EDGE, RIGHT_EDGE], ["rocking_angle", "uplift"], "no transducer measures slide, out-of-plane angle"),
         ([TOP, LEFT_EDGE, RIGHT_EDGE], ["rocking_angle", "slide", "uplift"], "angle, slide and uplift, from 3"),
         ([TOP, ACROSS_TOP], ["rocking_angle", "out_of_plane_angle"], "slide and transverse slide cannot be separated"),
         (
             [TOP, ACROSS_TOP, ACROSS_BOTTOM],
             ["rocking_angle", "out_of_plane_angle", "transverse_slide"],
-            "slide cannot be separated from these",
+            "slide cannot be separated",
         ),
         ([TOP, ACROSS_TOP, ACROSS_SIDE], ["rocking_angle", "out_of_plane_angle", "yaw"], "transverse slide cannot"),
         ([TOP, BESIDE, BOTTOM], ["rocking_angle", "slide", "yaw"], "angle, slide and yaw"),

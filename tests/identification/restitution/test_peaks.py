@@ -26,9 +26,9 @@ class Line:
     """What the peaks say of e, with its interval."""
 
     def __init__(self, found, level):
-        self.found, self.peaks, self.offset = found, found.peaks, found.zero
-        self.value = np.exp(found.solved.mean[0])
-        ends = (found.solved.quantile(0.5 + sign * level / 2) for sign in (-1, 1))
+        solved, self.peaks = found
+        self.offset, self.value = solved.mean[2], np.exp(solved.mean[0])
+        ends = (solved.quantile(0.5 + sign * level / 2) for sign in (-1, 1))
         self.low, self.high = (np.exp(end) for end in ends)
         self.standard_error = (self.high - self.low) / 2 / scipy.special.ndtri((1 + level) / 2)
 

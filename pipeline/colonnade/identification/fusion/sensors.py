@@ -10,6 +10,7 @@ import numpy as np
 from colonnade.arrays import Array, Mask, Vector
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose, pole_displacement, pole_position, rotation_matrix
+from colonnade.errors import count
 from colonnade.units.text import joined
 
 Kind = TypeVar("Kind", covariant=True)
@@ -281,10 +282,18 @@ def separate(
     apart; what is left out counts as zero. Uplift of the pole takes two transducers that look along z: a single one
     with others is a check of the angle rather than a measurement of bounce.
     """
-    designs = design_at_rest(transducers, block, outline)
+    rest = Pose(*np.zeros((len(UNKNOWNS), 1)))
+    designs = np.array([predict(transducers, rest, side, block, outline)[1][..., 0] for side in (-1.0, 1.0)])
     sizes = np.array([block.pole_distance if name in _ROTATIONS else 1.0 for name in UNKNOWNS])
     seen_by = (np.abs(designs) > SIGHT * sizes).any(axis=0).sum(axis=0)
-    _refuse_unseen(designs[:, :, 0])
+    sides = np.asarray((np.abs(designs[:, :, 0]) > 0).any(axis=1))
+    if not sides.all():
+        side = f" at θ {'>' if sides[0] else '<'} 0" if sides.any() else ""
+        raise UnseenRotationError(
+            f"No transducer measures the rotation{side}: each is at the height of the base, points across the plane, "
+            "or is on the edge that the specimen rocks about. Add a displacement transducer above the base, with a "
+            "direction along x"
+        )
     fitted: list[int] = [0]
     mixed: list[int] = []
     for index in (each for each in range(1, len(UNKNOWNS)) if seen_by[each]):
@@ -293,12 +302,6 @@ def separate(
         (fitted if is_fitted else mixed).append(index)
     unseen = [index for index in range(1, len(UNKNOWNS)) if not seen_by[index]]
     return fitted, designs[:, :, fitted], _text(fitted, mixed, unseen, transducers)
-
-
-def design_at_rest(transducers: list[Transducer], block: Block, outline: Outline) -> Array:
-    """Derivatives of readings at rest by all unknowns, about the pole of θ < 0 and of θ > 0, shape (2, m, 6)."""
-    rest = Pose(*np.zeros((len(UNKNOWNS), 1)))
-    return np.array([predict(transducers, rest, side, block, outline)[1][..., 0] for side in (-1.0, 1.0)])
 
 
 def is_separated(designs: Array, sigma: Array) -> bool:
@@ -315,23 +318,10 @@ def is_separated(designs: Array, sigma: Array) -> bool:
     return True
 
 
-def _refuse_unseen(rotation: Array) -> None:
-    seen = np.asarray((np.abs(rotation) > 0).any(axis=1))
-    if not seen.all():
-        side = f" at θ {'>' if seen[0] else '<'} 0" if seen.any() else ""
-        raise UnseenRotationError(
-            f"No transducer measures the rotation{side}: each is at the height of the base, points across the plane, "
-            "or is on the edge that the specimen rocks about. Add a displacement transducer above the base, with a "
-            "direction along x"
-        )
-
-
 def _text(fitted: list[int], mixed: list[int], unseen: list[int], transducers: list[Transducer]) -> str:
     names, others, missed = ([_WORDS[UNKNOWNS[index]] for index in each] for each in (fitted, mixed, unseen))
     kind = "transducer" if any(each.sensing == "angle" for each in transducers) else "displacement transducer"
-    text = f"{f'{names[0]} only' if len(names) == 1 else joined(names)}, from "
-    text += f"one {kind}" if len(transducers) == 1 else f"{len(transducers)} {kind}s"
+    text = f"{joined(names)}{' only' * (len(names) == 1)}, from {count(len(transducers), kind)}"
     if others:
-        it, verb = "it" if len(names) == 1 else "these", "is" if len(others) == 1 else "are"
-        text += f"; {joined(others)} cannot be separated from {it} and {verb} taken as zero"
+        text += f"; {joined(others)} cannot be separated: taken as zero"
     return f"{text}; no transducer measures {joined(missed, 'or')}" if missed else text

@@ -82,7 +82,7 @@ class Boundaries:
     overturning : Bracket
         Between tests that rocked and that overturned; those without rocking bound it from below where none rocked.
     notes : tuple of str
-        What is out of order, or missing.
+        What is out of order.
     """
 
     frequency_ratio: float
@@ -135,6 +135,4 @@ def _of_group(group: list[MapPoint]) -> Boundaries:
         for what, bracket in (("rocking", rocking), ("overturning", overturning))
         if bracket.exceptions
     ]
-    sides = (rocking.below, "without rocking"), (rocking.above, "with rocking"), (overturning.above, "that overturned")
-    notes += [f"no test {what}" for side, what in sides if side is None]
     return Boundaries(sum(point.frequency_ratio for point in group) / len(group), rocking, overturning, tuple(notes))

@@ -189,7 +189,7 @@ def _result(
             fit = peaks.fit_peaks(record.peaks, record.block, record.noise, uncertainty)
         reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
     of_history = _estimate("history", level, why if found is None else found.answer)
-    of_peaks = _estimate("peaks", level, reason if fit is None else fit.solved)
+    of_peaks = _estimate("peaks", level, reason if fit is None else fit[0])
     chosen, zero, joint = of_peaks, 0.0, None
     if found is not None:
         chosen, zero, joint = of_history, found.zero - record.zero, found.joint
@@ -197,7 +197,7 @@ def _result(
         # Peaks say nothing of α and p.
         widths = np.array([chosen.standard_error / chosen.value, uncertainty.critical_angle, uncertainty.p])
         joint = Joint(np.array([log(chosen.value), 0.0, 0.0]), np.diag(widths**2))
-    zero = zero if fit is None else fit.zero
+    zero = zero if fit is None else float(fit[0].mean[2])
     refused = next((each.sentence for each in departing if each.refuses), "") or _objection(chosen, why)
     value, low, high, error = chosen.value, chosen.low, chosen.high, chosen.standard_error
     return Restitution(
@@ -206,7 +206,7 @@ def _result(
         peaks.METHOD if found is None else METHOD,
         refused,
         zero_offset=record.zero + zero,
-        peaks=record.peaks if fit is None else fit.peaks,
+        peaks=record.peaks if fit is None else fit[1],
         impacts=NO_IMPACTS if driven else record.single_impacts(zero),
         estimates=(of_history, of_peaks),
         history=None if found is None else found.path.history,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import scipy
@@ -83,29 +83,7 @@ def angle_of_energy(energy: ArrayLike, critical_angle: ArrayLike) -> Array:
     return np.asarray(critical - np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
-@dataclass(frozen=True)
-class PeakFit:
-    """
-    The line through the energies of the peaks.
-
-    Attributes
-    ----------
-    solved : Solved
-        ln e, height and zero, then ln of α and of the gain.
-    peaks : Peaks
-        About the zero that they have in common.
-    """
-
-    solved: Solved
-    peaks: Peaks
-
-    @property
-    def zero(self) -> float:
-        """rad."""
-        return float(self.solved.mean[2])
-
-
-def fit_peaks(seen: Peaks, block: Block, noise: float, known: Uncertainty) -> PeakFit | None:
+def fit_peaks(seen: Peaks, block: Block, noise: float, known: Uncertainty) -> tuple[Solved, Peaks] | None:
     """
     Fit a line to ln of the energies of peaks.
 
@@ -120,8 +98,9 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: Uncertainty) -> Pe
 
     Returns
     -------
-    fit : PeakFit or None
-        None if fewer than `FEWEST_PEAKS` are usable.
+    solved, peaks : Solved and Peaks, or None
+        ln e, height and zero (rad), then ln of α and of the gain; the peaks about that zero. None if fewer than
+        `FEWEST_PEAKS` are usable.
 
     Notes
     -----
@@ -155,4 +134,4 @@ def fit_peaks(seen: Peaks, block: Block, noise: float, known: Uncertainty) -> Pe
     fitted = np.full(seen.angle.shape, np.nan)
     rise = np.exp(height + 2 * mean * number) / p**2 / (1 - np.cos(alpha))
     fitted[usable] = np.sign(angle) * angle_of_energy(rise, alpha)
-    return PeakFit(solved, replace(seen, angle=seen.angle - zero, fitted_angle=fitted))
+    return solved, replace(seen, angle=seen.angle - zero, fitted_angle=fitted)
