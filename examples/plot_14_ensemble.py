@@ -24,12 +24,5 @@ horizon = spread.horizon(0.5 * block.critical_angle)
 axes = colonnade.plot(spread)
 axes.axvline(horizon, color="grey", linewidth=0.8)
 axes.set_ylim(-1.2 * block.critical_angle, 1.2 * block.critical_angle)
-low, high = spread.overturning_interval()
 print(f"horizon: {horizon:.2f} s of {time[-1]:.2f} s")
-print(f"{100 * spread.overturning_probability:.1f} % of the runs overturn ({100 * low:.1f} to {100 * high:.1f} %)")
-
-# %%
-# Which input decides the peak? Rank correlations say it.
-
-for name, correlation in sorted(spread.sensitivity().items(), key=lambda item: -abs(item[1])):
-    print(f"{name:15} {correlation:+.2f}")
+print(f"{100 * spread.overturning_probability:.1f} % of the runs overturn")

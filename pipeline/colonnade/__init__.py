@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from colonnade.dynamics.plane.reactions import reactions as reactions
     from colonnade.dynamics.pulses import OverturningSpectrum as OverturningSpectrum
     from colonnade.dynamics.pulses import overturning_spectrum as overturning_spectrum
-    from colonnade.dynamics.restitution_law import RestitutionLaw as RestitutionLaw
+    from colonnade.dynamics.rock import RestitutionLaw as RestitutionLaw
     from colonnade.dynamics.rock import rock as rock
     from colonnade.dynamics.spectra import RockingSpectrum as RockingSpectrum
     from colonnade.dynamics.spectra import rocking_spectrum as rocking_spectrum

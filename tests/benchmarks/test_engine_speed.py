@@ -13,7 +13,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import paper_schemes as schemes
-from colonnade.dynamics.plane.march import NONE, Forcing, propagate
+from colonnade.dynamics.plane.march import propagate
+from colonnade.dynamics.plane.run import NONE, Forcing
 from colonnade.dynamics.plane.sides import sides_of
 from peers import integrator, least_seconds
 from prism import PRISM

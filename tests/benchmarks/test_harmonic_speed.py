@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from colonnade.dynamics.plane.run import Harmonic, harmonic_outcomes
+from colonnade.dynamics.plane.run import Harmonic, outcomes_of
 from harmonic import harmonic_run
 from peers import integrator, least_seconds
 from prism import PRISM
@@ -87,7 +87,13 @@ def test_trajectories_a_second_beside_heyoka(capsys, model, least):
 
     def own():
         for ratio, levels in amplitudes.items():
-            harmonic_outcomes(PRISM, Harmonic.cycles(ratio * P, CYCLES), levels, (RESTITUTION,) * 2, model)
+            outcomes_of(
+                levels,
+                block=PRISM,
+                forcing=Harmonic.cycles(ratio * P, CYCLES).forcing(),
+                restitution=(RESTITUTION,) * 2,
+                model=model,
+            )
 
     seconds, theirs = least_seconds(own, lambda: [peer.run(*case) for case in cases], rounds=20)
     impacts = sum(harmonic_run(PRISM, Harmonic.cycles(ratio * P, CYCLES), level, (RESTITUTION,) * 2, model=model)
@@ -107,7 +113,13 @@ def test_a_map_of_a_million_points(capsys):
     ratios, amplitudes = np.linspace(1.1, 7.8, 1000), np.linspace(0.7, 9.0, 1000)
 
     def column(ratio):
-        return harmonic_outcomes(PRISM, Harmonic.cycles(ratio * P, 20), amplitudes, (RESTITUTION,) * 2, "linear")
+        return outcomes_of(
+            amplitudes,
+            block=PRISM,
+            forcing=Harmonic.cycles(ratio * P, 20).forcing(),
+            restitution=(RESTITUTION,) * 2,
+            model="linear",
+        )
 
     column(2.0)
     seconds, busy, maps = {}, {}, {}

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.march import NONE, Forcing, propagate
+from colonnade.dynamics.plane.march import propagate
+from colonnade.dynamics.plane.run import NONE, Forcing
 from colonnade.dynamics.plane.sides import sides_of
 from independent_rocking import Reference
 from prism import PRISM

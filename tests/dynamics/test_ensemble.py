@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from scipy.stats import spearmanr
 
 from colonnade.dynamics.ensemble import LEVELS, PlanePlan, ensemble
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
+from colonnade.dynamics.uncertainty import Uncertainty
 from prism import PRISM
 
 ALPHA = PRISM.critical_angle
@@ -20,7 +19,6 @@ def test_without_uncertainty_every_member_is_the_central_history():
     result = ensemble(PRISM, PULSE, restitution=0.97, uncertainty=Uncertainty(), count=5)
     np.testing.assert_allclose(result.bands, np.broadcast_to(result.central, result.bands.shape), atol=1e-6 * ALPHA)
     assert np.ptp(result.peak_ratio) == 0.0
-    assert result.sensitivity() == {}
 
 
 def test_the_band_of_free_rocking_grows_as_the_error_of_e_propagates():
@@ -132,29 +130,3 @@ def test_a_long_record_is_banded_on_every_second_sample():
 def test_an_ensemble_of_nobody_is_refused():
     with pytest.raises(ValueError, match="at least one member"):
         ensemble(PRISM, PULSE, uncertainty=Uncertainty(), count=0)
-
-
-def test_sensitivity_names_what_the_peak_follows_from():
-    """One pulse, peak before the first impact: e has no part in it, a larger motion rises higher, a larger α less."""
-    uncertainty = Uncertainty(restitution=0.01, critical_angle=0.003, gain=0.02)
-    half = Motion(np.concatenate((1.9 * np.sin(np.pi * np.arange(50) / 50), np.zeros(60))), 0.004)
-    result = ensemble(PRISM, half, restitution=0.95, uncertainty=uncertainty, count=800)
-    found = result.sensitivity()
-    assert set(found) == {"restitution", "critical_angle", "gain"}
-    assert found["gain"] > 0.9
-    assert -0.6 < found["critical_angle"] < -0.1
-    assert abs(found["restitution"]) < 0.1
-    for name in found:
-        expected = spearmanr(result.peak_ratio, result.inputs[:, INPUTS.index(name)]).statistic
-        assert found[name] == pytest.approx(expected, abs=1e-12)
-
-
-def test_no_certainty_follows_from_few_members():
-    result = ensemble(PRISM, PULSE, restitution=0.95, uncertainty=Uncertainty(gain=0.01), count=20)
-    assert result.overturning_probability == 0.0
-    assert result.overturning_interval() == pytest.approx((0.0, 0.16113), abs=1e-4)  # Wilson, 0 of 20
-
-
-def test_peaks_that_do_not_vary_correlate_with_nothing():
-    result = ensemble(PRISM, REST, restitution=0.95, uncertainty=Uncertainty(gain=0.01), count=5)
-    assert np.isnan(result.sensitivity()["gain"])

@@ -5,8 +5,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.dynamics.rock import rock
+from colonnade.dynamics.rock import RestitutionLaw, rock
 from every import every
 from independent_rocking import Reference
 from prism import PRISM

@@ -8,7 +8,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from colonnade.dynamics.pulses import PULSES, mavroeidis_papageorgiou, pulse_of, ricker, sampled_pulse
+from colonnade.dynamics.pulses import PULSES, mavroeidis_papageorgiou, ricker, sampled_pulse
 
 
 @settings(max_examples=30)
@@ -44,6 +44,6 @@ def test_the_samples_have_the_integrals_of_the_pulse():
 
 @pytest.mark.parametrize("name", PULSES)
 def test_every_pulse_says_what_it_is(name):
-    assert pulse_of(name).definition
-    assert pulse_of(name).source
-    assert (pulse_of(name).cycles is None) == (name in ("ricker", "mavroeidis-papageorgiou"))
+    assert PULSES[name].definition
+    assert PULSES[name].source
+    assert (PULSES[name].cycles is None) == (name in ("ricker", "mavroeidis-papageorgiou"))

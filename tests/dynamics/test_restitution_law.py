@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.dynamics.rock import rock
+from colonnade.dynamics.rock import RestitutionLaw, rock
 from prism import PRISM
 
 RELEASED = {"theta0": 0.5 * PRISM.critical_angle, "duration": 3.0}
@@ -34,13 +33,13 @@ def test_each_impact_loses_by_the_law_at_its_own_speed(model):
 @pytest.mark.parametrize(
     ("speeds", "values", "words"),
     [
-        ([0.0, 1.0], [0.9], "one value for each"),
-        ([], [], "at least one speed"),
+        ([0.0, 1.0], [0.9], "one for each of 2 speeds"),
+        ([], [], "at least one number"),
         ([1.0, 0.5], [0.9, 0.9], "rising"),
         ([-1.0, 0.5], [0.9, 0.9], "rising"),
-        ([0.0, math.nan], [0.9, 0.9], "rising"),
-        ([0.0, 1.0], [0.9, 1.1], r"e = 1.1 at 1 rad/s"),
-        ([0.0, 1.0], [math.nan, 0.9], r"e = nan at 0 rad/s"),
+        ([0.0, math.nan], [0.9, 0.9], "speeds is not finite"),
+        ([0.0, 1.0], [0.9, 1.1], "e at 1 rad/s is 1.1"),
+        ([0.0, 1.0], [math.nan, 0.9], "values is not finite"),
     ],
 )
 def test_a_table_that_is_none_is_refused(speeds, values, words):

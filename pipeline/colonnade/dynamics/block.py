@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.dynamics.size import expect_inertia
 from colonnade.units.text import Digested, written
 from colonnade.validation import instance, number, samples, sided, whole
 
@@ -22,6 +21,9 @@ Sided = float | tuple[float, float]
 
 MOST_COLUMNS = 1000
 """Of a frame or a colonnade."""
+HOLLOW = 0.9
+"""Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
+
 LEAST, LARGEST = 1e-60, 1e60
 """Of a length, a mass or an inertia in SI: products of several stay in the range of floating-point numbers."""
 
@@ -390,14 +392,19 @@ class Block(Digested):
         ValueError
             If a value is out of its range, or the inertia less than that of the mass alone at the pole distance.
         """
-        expect_positive(mass=mass, gravity=gravity)
-        angles = sided("critical_angle", critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
-        distances = sided("pole_distance", pole_distance, "a positive number", above=0.0)
-        inertias = sided("inertia", inertia, "a positive number", above=0.0)
-        for distance, about_pole in zip(distances, inertias, strict=True):
-            expect_inertia(about_pole, mass, distance)
-        negative, positive = (Side(*values) for values in zip(angles, distances, inertias, strict=True))
-        return cls(mass, gravity, negative, positive)
+        given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
+        pairs = [sided(name, value, "a positive number", above=0.0) for name, value in given.items()]
+        negative, positive = (Side(*values) for values in zip(*pairs, strict=True))
+        block = cls(mass, gravity, negative, positive)
+        for side in block.sides:
+            least = mass * side.pole_distance**2
+            if side.inertia < HOLLOW * least:
+                raise ValueError(
+                    f"inertia is {side.inertia:g} kg m² with a pole_distance of {side.pole_distance:g} m and a mass of "
+                    f"{mass:g} kg; at least m R² = {least:.4g} kg m² was expected. Is the pole distance in m, and the "
+                    "inertia that about the pole?"
+                )
+        return block
 
     @classmethod
     def frame(cls, column: Block, *, beam_mass: float, columns: int = 2) -> Block:

@@ -1,12 +1,12 @@
-"""Many runs of one motion over what is not exactly known: bands, overturning, what the peak depends on."""
+"""Many runs of one motion over what is not exactly known: their bands, and how many overturn."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from math import ceil, inf, nan
+from math import ceil, nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,8 +17,7 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import History, capped
 from colonnade.dynamics.models import DEFAULT
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.restitution_law import of_sides
-from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, rock
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, of_sides, rock
 from colonnade.dynamics.uncertainty import (
     INPUTS,
     MotionDraws,
@@ -85,12 +84,10 @@ class Ensemble(Digested):
     >>> motion = colonnade.Motion(3.0 * np.sin(np.arange(600) * 0.2), 0.005)
     >>> inputs = colonnade.Uncertainty(restitution=0.005, gain=0.02)
     >>> found = colonnade.ensemble(block, motion, restitution=0.95, uncertainty=inputs, count=50)
-    >>> found.overturning_probability, tuple(round(end, 3) for end in found.overturning_interval())
-    (0.0, (0.0, 0.071))
-    >>> sorted(found.sensitivity()), found.horizon(0.5 * block.critical_angle)
-    (['gain', 'restitution'], 2.995)
+    >>> found.overturning_probability, found.horizon(0.5 * block.critical_angle)
+    (0.0, 2.995)
     >>> list(found.digest())
-    ['members', 'overturned', 'median of max |θ|/α', 'duration']
+    ['members', 'overturned', 'duration']
     """
 
     time: Array
@@ -105,18 +102,16 @@ class Ensemble(Digested):
 
     def digest(self) -> dict[str, str]:
         """
-        Return the number of members, the share that overturns, the median peak and the duration.
+        Return the number of members, the share that overturns and the duration.
 
         Returns
         -------
         digest : dict of str to str
             Names and values with their units, as a notebook shows them.
         """
-        median = float(np.quantile(self._ranked, 0.5, method="nearest"))
         return {
             "members": str(self.overturning_time.size),
             "overturned": written(100 * self.overturning_probability, "%", 3),
-            "median of max |θ|/α": "overturned" if median == inf else written(median),
             "duration": written(float(self.time[-1] - self.time[0]), "s"),
         }
 
@@ -141,45 +136,6 @@ class Ensemble(Digested):
     def overturning_probability(self) -> float:
         """Share of the members that overturn."""
         return float(np.isfinite(self.overturning_time).mean())
-
-    def overturning_interval(self) -> tuple[float, float]:
-        """
-        Return the interval (Wilson 1927) of the probability of overturning that the finite number of members leaves.
-
-        Returns
-        -------
-        low, high : float
-            Probabilities, 0 to 1, of 95 %.
-        """
-        from scipy.stats import binomtest
-
-        overturned = int(np.isfinite(self.overturning_time).sum())
-        low, high = binomtest(overturned, self.overturning_time.size).proportion_ci(method="wilson")
-        return float(low), float(high)
-
-    @property
-    def _ranked(self) -> Array:
-        """The peaks; members that overturn share the highest rank."""
-        return np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio)
-
-    def sensitivity(self) -> dict[str, float]:
-        """
-        Rank correlation (Spearman 1904) of the peak with each input that varies.
-
-        Members that overturn share the highest rank. Inputs that do not vary are left out.
-
-        Returns
-        -------
-        sensitivity : dict of str to float
-            −1 to 1, by input; NaN if all peaks are equal.
-        """
-        from scipy.stats import spearmanr
-
-        peaks, columns = self._ranked, zip(self.names, self.inputs.T, strict=True)
-        varied = {name: column for name, column in columns if np.ptp(column) > 0.0}
-        if (peaks == peaks[0]).all():
-            return dict.fromkeys(varied, nan)
-        return {name: float(spearmanr(peaks, column).statistic) for name, column in varied.items()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -321,33 +277,32 @@ class PlanePlan(Plan):
 
     def central(self) -> History:
         """Run the model on what was recorded, nothing varied."""
-        return self._rock(self.block, self.motion, self.restitution, self.theta0)
+        return rock(
+            self.block,
+            self.motion,
+            restitution=self.restitution,
+            model=self.model,
+            theta0=self.theta0,
+            omega0=self.omega0,
+            rest_angle=self.rest_angle,
+        )
 
     def follow(self, random: np.random.Generator) -> tuple[Array, History]:
         """Draw what one member takes, in the order of `INPUTS`, and a motion, and run the model with it."""
         inputs = draw_inputs(self.uncertainty, random)
         e, critical_angle, p, gain, clock, cutoff, theta0 = inputs.tolist()
-        return inputs, self._rock(
-            member_block(self.block, critical_angle, p),
-            self._motions.draw(random, gain=gain, clock=clock, cutoff=cutoff),
-            member_restitution(self.restitution, e),
-            self.theta0 + theta0,
+        drawn = replace(
+            self,
+            block=member_block(self.block, critical_angle, p),
+            motion=self._motions.draw(random, gain=gain, clock=clock, cutoff=cutoff),
+            restitution=member_restitution(self.restitution, e),
+            theta0=self.theta0 + theta0,
         )
+        return inputs, drawn.central()
 
     @cached_property
     def _motions(self) -> MotionDraws:
         return MotionDraws(self.motion, self.uncertainty)
-
-    def _rock(self, block: Block, motion: Motion, restitution: Sided, theta0: float) -> History:
-        return rock(
-            block,
-            motion,
-            restitution=restitution,
-            model=self.model,
-            theta0=theta0,
-            omega0=self.omega0,
-            rest_angle=self.rest_angle,
-        )
 
 
 def ensemble(

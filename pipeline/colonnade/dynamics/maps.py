@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import inf, pi, tan
 from typing import Any
 
@@ -15,19 +16,19 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.contact.body import InSpace
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models import DEFAULT, model_of, plane_model_of
-from colonnade.dynamics.plane.run import SAMPLES_A_CYCLE, Harmonic
-from colonnade.dynamics.restitution_law import of_sides
-from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.run import OUTCOMES, SAMPLES_A_CYCLE, Harmonic, outcomes_of
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, of_sides
 from colonnade.dynamics.search import (
     MOST_STEPS,
     WIDTH,
     OverFrequency,
+    Runs,
     checked_ratios,
     checked_widths,
     limits_of,
     onset_of,
     over_frequency,
-    runs_of,
     scan_over,
 )
 from colonnade.validation import instance, number
@@ -133,7 +134,7 @@ def map_part(plan: MapPlan, columns: Sequence[int]) -> StabilityMap:
     limits = []
     for place, omega in enumerate(omegas.tolist()):
         motion = Harmonic.cycles(omega * block.p, plan.cycles, phase=plan.phase, ramp=plan.ramp)
-        runs = runs_of(block, motion, plan.restitution, plan.model, plan.space)
+        runs = runs_of(plan, motion)
         limits.append(limits_of(scan, runs, width=plan.width, edge=plan.edge))
         if plan.space is not None:
             onsets[place] = onset_of(scan, limits[-1].codes, runs, edge=plan.edge)
@@ -145,6 +146,20 @@ def map_part(plan: MapPlan, columns: Sequence[int]) -> StabilityMap:
         overturning_fraction=np.stack([_fraction(amplitudes, each.intervals) for each in limits]),
         no_rocking=onsets,
     )
+
+
+def runs_of(plan: MapPlan, motion: Harmonic) -> Runs:
+    """Give what runs a plan's block under a sine at some A."""
+    block, space = plan.block, plan.space
+    if space is None:
+        forcing = motion.forcing()
+        return partial(outcomes_of, block=block, forcing=forcing, restitution=plan.restitution, model=plan.model)
+    unit, dt = motion.sampled(block.uplift_acceleration)
+
+    def outcome(amplitude: float) -> int:
+        return OUTCOMES.index(space.run(Motion(unit * amplitude, dt), block.gravity).outcome)
+
+    return lambda amplitudes: np.array([outcome(amplitude) for amplitude in amplitudes], dtype=np.int8)
 
 
 def _fraction(amplitudes: Array, intervals: Array) -> Array:

@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models import DEFAULT, plane_model_of
-from colonnade.dynamics.plane.run import Harmonic
-from colonnade.dynamics.restitution_law import of_sides
-from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.run import Forcing, Harmonic, expect_usable, forcing_of, outcomes_of
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, of_sides
 from colonnade.dynamics.search import (
     LARGEST_RATIO,
     LEAST_EDGE,
@@ -24,7 +24,6 @@ from colonnade.dynamics.search import (
     checked_widths,
     limits_of,
     over_frequency,
-    runs_of,
     scan_over,
 )
 from colonnade.errors import nearest
@@ -69,27 +68,15 @@ class PulseKind:
     phase: float = 0.0
     is_constant: bool = False
 
-    def motion(self, omega: float, largest: float, cycles: float, phase: float) -> Harmonic | tuple[Array, float]:
-        """Give the pulse at ω (rad/s), harmonic or sampled with its largest acceleration (m/s²), γ and ν (rad)."""
+    def forcing(self, block: Block, omega: float, cycles: float, phase: float) -> Forcing:
+        """Give the pulse at ω (rad/s), over its largest acceleration, with its γ and ν (rad)."""
         if self.cycles is None:
             shape, step = sampled_pulse(self.name, cycles, phase)
-            return largest * shape, step / omega
+            motion = Motion(shape, step / omega)
+            expect_usable(block, motion)
+            return forcing_of(motion, 1.0)
         length = 2 * pi * self.cycles / omega
-        return Harmonic(0.0 if self.is_constant else omega, self.phase, (0.0, length, length))
-
-
-def pulse_of(name: str) -> PulseKind:
-    """
-    Return a pulse by its name.
-
-    Raises
-    ------
-    ValueError
-        If it is unknown; the message gives the nearest one.
-    """
-    if instance("pulse", name, str, "the name of a pulse") not in PULSES:
-        raise ValueError(f'Unknown pulse "{name}".{nearest(name, PULSES)}')
-    return PULSES[name]
+        return Harmonic(0.0 if self.is_constant else omega, self.phase, (0.0, length, length)).forcing()
 
 
 def sampled_pulse(name: str, cycles: float, phase: float) -> tuple[Array, float]:
@@ -246,7 +233,9 @@ def overturning_spectrum(
     ([1.368], [3.589])
     """
     instance("block", block, Block)
-    kind = pulse_of(pulse)
+    if instance("pulse", pulse, str, "the name of a pulse") not in PULSES:
+        raise ValueError(f'Unknown pulse "{pulse}".{nearest(pulse, PULSES)}')
+    kind = PULSES[pulse]
     plane_model_of(model)
     omegas = checked_ratios("frequency_ratio", frequency_ratio)
     cycles = number("cycles", cycles, f"a number of cycles from 1 to {MOST_CYCLES:g}", low=1.0, high=MOST_CYCLES)
@@ -258,8 +247,9 @@ def overturning_spectrum(
 
     limits = []
     for ratio in omegas.tolist():
-        motion = kind.motion(ratio * block.p, block.uplift_acceleration, cycles, phase)
-        limits.append(limits_of(scan, runs_of(block, motion, e, model), width=width, edge=edge))
+        forcing = kind.forcing(block, ratio * block.p, cycles, phase)
+        runs = partial(outcomes_of, block=block, forcing=forcing, restitution=e, model=model)
+        limits.append(limits_of(scan, runs, width=width, edge=edge))
     ends = {"restitution_negative": e[0], "restitution_positive": e[1], "rest_angle": DEFAULT_REST_ANGLE}
     shaped = {"cycles": cycles, "phase": phase} if kind is MAVROEIDIS_PAPAGEORGIOU else {}
     searched = {"largest": largest, "width": width, "edge": edge}

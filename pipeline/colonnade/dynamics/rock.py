@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypedDict, Unpack, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.block import Block
+from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.contact.body import ContactLaw, InSpace, rigid_body
 from colonnade.dynamics.history import History
 from colonnade.dynamics.models import DEFAULT, model_of
 from colonnade.dynamics.motion import Motion, at_rest
-from colonnade.dynamics.restitution_law import Given
-from colonnade.validation import described, instance, number
+from colonnade.validation import described, instance, number, samples, sided
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.history import AssemblyHistory
@@ -29,6 +31,76 @@ HALF = np.pi / 2
 
 FASTEST = 1e9
 """rad/s, of the initial state."""
+
+
+@dataclass(frozen=True, eq=False)
+class RestitutionLaw:
+    """
+    Coefficient of restitution over the speed of the impact, linear between its points, for both sides of the block.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (m,)
+        |ω| just before an impact, rad/s, rising; below the first and above the last e stays as it is there.
+    values : ndarray, shape (m,)
+        e at these speeds, between 0 and 1.
+
+    Examples
+    --------
+    >>> law = RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
+    >>> float(law(0.5)), float(law(3.0))
+    (0.95, 0.9)
+    """
+
+    speeds: Array
+    values: Array
+
+    def __post_init__(self) -> None:
+        speeds, values = samples("speeds", self.speeds), samples("values", self.values)
+        if speeds.size != values.size:
+            raise ValueError(f"values has {values.size} numbers; one for each of {speeds.size} speeds was expected")
+        if speeds[0] < 0.0 or not (np.diff(speeds) > 0.0).all():
+            raise ValueError("The speeds of a restitution law have to be rising numbers from 0 rad/s on")
+        for speed, e in zip(speeds.tolist(), values.tolist(), strict=True):
+            number(f"e at {speed:g} rad/s", e, "a number between 0 and 1", low=0.0, high=1.0)
+
+    @classmethod
+    def table(cls, speeds: ArrayLike, values: ArrayLike) -> RestitutionLaw:
+        """
+        Build a law from points.
+
+        Parameters
+        ----------
+        speeds : array_like, shape (m,)
+            |ω| just before an impact, rad/s, rising.
+        values : array_like, shape (m,)
+            e at these speeds, between 0 and 1.
+
+        Returns
+        -------
+        law : RestitutionLaw
+
+        Raises
+        ------
+        ValueError
+            If speeds do not rise from 0 or above, a value is not between 0 and 1, or their numbers differ.
+        """
+        return cls(samples("speeds", speeds), samples("values", values))
+
+    def __call__(self, speed: ArrayLike) -> Array:
+        """Give e at |ω| (rad/s), shape of `speed`."""
+        speeds = samples("speed", speed, dimensions=(0, 1, 2, 3), fewest=0)
+        return np.asarray(np.interp(speeds, self.speeds, self.values), dtype=np.float64)
+
+
+Given = Sided | RestitutionLaw | None
+"""e as it may be given: one value, a pair, or a law; None for the rigid-body value."""
+
+
+def of_sides(block: Block, restitution: Sided | None) -> tuple[float, float]:
+    """Give e of impacts that end an arc at θ < 0, and at θ > 0; ValueError if it is not between 0 and 1."""
+    given = block.restitution if restitution is None else restitution
+    return sided("restitution", given, "a number between 0 and 1", low=0.0, high=1.0)
 
 
 class Options(TypedDict, total=False):

@@ -15,10 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes, Mask
-from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.contact.body import InSpace
-from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.run import OUTCOMES, OVERTURNS, Harmonic, ends_of, expect_usable, harmonic_outcomes
+from colonnade.dynamics.plane.run import OVERTURNS
 from colonnade.units.text import Digested
 from colonnade.validation import number, samples
 
@@ -66,11 +63,9 @@ class Limits(NamedTuple):
 def checked_ratios(name: str, values: ArrayLike, *, fewest: int = 1) -> Array:
     """Check rising values of Ω or A; ValueError if one is out of the range of all motions and blocks."""
     ratios = samples(name, values, dimensions=(0, 1), fewest=fewest).ravel()
-    if not (ratios.min() >= 1 / LARGEST_RATIO and ratios.max() <= LARGEST_RATIO):
-        raise ValueError(
-            f"{name} goes from {ratios.min():g} to {ratios.max():g}; positive numbers from {1 / LARGEST_RATIO:g} to "
-            f"{LARGEST_RATIO:g} were expected"
-        )
+    expected = f"a number from {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g}"
+    for end in (ratios.min(), ratios.max()):
+        number(name, end, expected, low=1 / LARGEST_RATIO, high=LARGEST_RATIO)
     if not (np.diff(ratios) > 0).all():
         raise ValueError(f"{name} has to be increasing")
     return ratios.copy()
@@ -92,36 +87,6 @@ def scan_over(amplitudes: Array, width: float) -> Array:
     steps = np.maximum(np.ceil(np.diff(amplitudes) / (width / STEPS_A_WIDTH) * (1 - 1e-9)), 1.0)
     knots = np.concatenate([[0.0], np.cumsum(steps)])
     return np.interp(np.arange(knots[-1] + 1.0), knots, amplitudes)
-
-
-def runs_of(
-    block: Block,
-    motion: Harmonic | tuple[Array, float],
-    restitution: Sided,
-    model: str,
-    space: InSpace | None = None,
-) -> Runs:
-    """
-    Give what runs a motion at some A: of a record its acceleration at A = 1 (m/s²) and its sampling interval (s);
-    `space` is for a model that has no kernels in the plane.
-    """
-    if isinstance(motion, Harmonic) and space is None:
-        return lambda amplitudes: harmonic_outcomes(block, motion, amplitudes, restitution, model)
-    unit, dt = motion if isinstance(motion, tuple) else motion.sampled(block.uplift_acceleration)
-    if space is None:
-        # The kernels are decorated on import.
-        from colonnade.dynamics.plane.sides import sides_of
-
-        expect_usable(block, Motion(unit, dt))
-        sides = [sides_of(block, restitution)]
-
-    def outcome(amplitude: float) -> int:
-        scaled = Motion(unit * amplitude, dt)
-        if space is not None:
-            return OUTCOMES.index(space.run(scaled, block.gravity).outcome)
-        return int(ends_of(scaled, sides, gravity=block.gravity, model=model)[0][0])
-
-    return lambda amplitudes: np.array([outcome(amplitude) for amplitude in amplitudes], dtype=np.int8)
 
 
 def limits_of(scan: Array, runs: Runs, *, width: float, edge: float) -> Limits:

@@ -1,4 +1,4 @@
-"""Sizes of bodies: what density and inertia a body may have, and from model to prototype."""
+"""Sizes of bodies: what density a body may have, and from model to prototype."""
 
 from __future__ import annotations
 
@@ -10,30 +10,10 @@ LIGHTEST, HEAVIEST = 100.0, 23_000.0
 FOAM = 20.0
 """kg/m³, below which not even a foam stands: something is wrong."""
 
-HOLLOW = 0.9
-"""Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
-
 
 def cone_volume(base_diameter: float, top_diameter: float, height: float) -> float:
     """Volume of a truncated cone, m³; lengths in m. Of a cylinder both diameters are the same."""
     return pi * height * (base_diameter**2 + base_diameter * top_diameter + top_diameter**2) / 12
-
-
-def expect_inertia(inertia: float, mass: float, pole_distance: float) -> None:
-    """
-    Refuse a moment of inertia about the pole (kg m²) that is too small for a mass (kg) at its distance (m).
-
-    Raises
-    ------
-    ValueError
-        If no body has it.
-    """
-    if inertia < HOLLOW * mass * pole_distance**2:
-        raise ValueError(
-            f"inertia is {inertia:g} kg m² with a pole_distance of {pole_distance:g} m and a mass of {mass:g} "
-            f"kg; at least m R² = {mass * pole_distance**2:.4g} kg m² was expected. Is the pole distance in m, "
-            "and the inertia that about the pole?"
-        )
 
 
 EXPONENTS = {

@@ -25,7 +25,6 @@ from colonnade.campaign.forms.assessed import UNCORRECTED
 from colonnade.campaign.settings import ContactSettings, PlaneEnsembleSettings
 from colonnade.dynamics.assembly import Assembly, Placed
 from colonnade.dynamics.block import Block, Side, Sided, pair
-from colonnade.dynamics.size import EXPONENTS
 from colonnade.dynamics.uncertainty import member_block
 from colonnade.errors import StageError, count
 from colonnade.readers.record_set import RecordSet
@@ -84,7 +83,7 @@ def real_column(inputs: ColumnInputs, pooled: Dataset) -> tuple[RealColumn, str]
 
 def _enlarged(block: Block, scale: float) -> Block:
     """Enlarge a model of the same material; angles stay, lengths, mass and inertia grow."""
-    inertia = scale ** EXPONENTS["inertia"]
+    inertia = scale**5
     negative, positive = (
         Side(each.critical_angle, scale * each.pole_distance, inertia * each.inertia) for each in block.sides
     )
@@ -96,7 +95,7 @@ def _enlarged(block: Block, scale: float) -> Block:
         inertia_x=inertia * block.solid.inertia_x,
         inertia_z=inertia * block.solid.inertia_z,
     )
-    mass = scale ** EXPONENTS["mass"] * block.mass
+    mass = scale**3 * block.mass
     return replace(block, mass=mass, negative=negative, positive=positive, solid=solid)
 
 

@@ -19,7 +19,7 @@ from colonnade.campaign.syntax.table import Problems, Table
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.models import NONLINEAR, PLANE_MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.pulses import PULSES, OverturningSpectrum, overturning_spectrum, pulse_of
+from colonnade.dynamics.pulses import PULSES, OverturningSpectrum, overturning_spectrum
 from colonnade.dynamics.rock import rock
 from colonnade.dynamics.search import WIDTH
 from colonnade.dynamics.spectra import RockingSpectrum, rocking_spectrum
@@ -225,7 +225,7 @@ def _size(spectrum: RockingSpectrum, *place: int) -> Row:
 
 def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
     """Answer by the limits of the pulses over their frequency."""
-    kind, block = pulse_of(str(asked.pulse)), column.block
+    kind, block = PULSES[str(asked.pulse)], column.block
     spectrum = overturning_spectrum(
         block,
         kind.name,

@@ -9,9 +9,8 @@ from scipy.optimize import brentq
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.run import Harmonic, harmonic_outcomes
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.dynamics.rock import rock
+from colonnade.dynamics.plane.run import Harmonic, outcomes_of
+from colonnade.dynamics.rock import RestitutionLaw, rock
 from every import every
 from harmonic import harmonic_run
 from prism import PRISM
@@ -187,7 +186,7 @@ def test_a_block_past_return_lies_down_in_the_samples(model):
 def test_many_amplitudes_at_once_have_the_outcomes_of_single_runs(model):
     motion = Harmonic.cycles(5.5 * P, 20)
     amplitudes = np.linspace(0.9, 4.0, 40)
-    codes = harmonic_outcomes(PRISM, motion, amplitudes, (0.95, 0.95), model)
+    codes = outcomes_of(amplitudes, block=PRISM, forcing=motion.forcing(), restitution=(0.95, 0.95), model=model)
     single = [harmonic_run(PRISM, motion, amplitude, (0.95, 0.95), model=model).outcome for amplitude in amplitudes]
     assert [("no-rocking", "rocking", "overturned")[code] for code in codes] == single
     assert set(codes.tolist()) == {0, 1, 2}

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.plane import arc, march, sides
-from colonnade.dynamics.plane.march import FIRST_ROOM, NONE, Forcing
+from colonnade.dynamics.plane.march import FIRST_ROOM
+from colonnade.dynamics.plane.run import NONE, Forcing
 from colonnade.dynamics.plane.sides import sides_of
 from prism import PRISM
 

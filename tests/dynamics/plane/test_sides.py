@@ -7,8 +7,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.plane.sides import Part, Sides, rebound, restitution_of, sides_of, survives_free_rocking, uplift
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.dynamics.rock import rock
+from colonnade.dynamics.rock import RestitutionLaw, rock
 from every import every
 from prism import PRISM
 

@@ -3,8 +3,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.dynamics.rock import rock
+from colonnade.dynamics.rock import RestitutionLaw, rock
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.signals.filters import lowpass
 from prism import PRISM

@@ -6,8 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.restitution_law import RestitutionLaw
-from colonnade.dynamics.rock import rock
+from colonnade.dynamics.rock import RestitutionLaw, rock
 from colonnade.identification.restitution import identify
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.laboratory.truth import simulate

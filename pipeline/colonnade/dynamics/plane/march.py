@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan, cos, pi, sin
+from math import atan, cos, pi, sin, tan
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.kernel import kernel, kernel_in_place
 from colonnade.dynamics.plane.arc import Push, Series, empty_series, follow
-from colonnade.dynamics.plane.run import OVERTURNS, ROCKS, STANDS
+from colonnade.dynamics.plane.run import OVERTURNS, ROCKS, STANDS, Forcing
 from colonnade.dynamics.plane.sides import (
     LONGEST_SAMPLE,
     Part,
@@ -21,39 +21,11 @@ from colonnade.dynamics.plane.sides import (
     stay,
     survives_free_rocking,
     uplift,
-    uplift_threshold,
     whole_sample,
 )
 
-NONE = np.empty(0)
-"""Of what there is not."""
-
 FIRST_ROOM = 256
 """Impacts kept of a run at first."""
-
-
-class Forcing(NamedTuple):
-    """
-    A base motion in parts: a/g = l(t) sin(ω t + phase), with l and the weight 1 + v/g linear between knots.
-
-    Attributes
-    ----------
-    omega, phase : float
-        rad/s; rad. A record has ω = 0 and phase = π/2.
-    interval : float
-        s, between the knots of a record.
-    times : ndarray, shape (n,)
-        s, of the knots; empty for a record. Two at the same time make a jump.
-    levels, weights : ndarray, shape (n,)
-        l and 1 + v/g at the knots; no weights where the base moves along x only.
-    """
-
-    omega: float
-    phase: float
-    interval: float
-    times: Array
-    levels: Array
-    weights: Array
 
 
 class Watch(NamedTuple):
@@ -106,9 +78,10 @@ def march(
     since, floor, angles, velocities, impacts = watch
     linearised = True if work is None else work.is_linearised
     (left, right), p = sides.critical, sides.p
-    thresholds = uplift_threshold(left, linearised), uplift_threshold(right, linearised)
+    thresholds = (left, right) if linearised else (tan(left), tan(right))
     # In closed form, samples of a record in which nothing happens are passed over at once.
-    is_quick, is_kept = work is None and times.size == 0, angles.size > 0
+    is_kept = angles.size > 0
+    is_quick = work is None and times.size == 0 and is_kept
     largest = _largest(levels)
     whole = whole_sample(-1.0, left, p[0], interval, largest), whole_sample(1.0, right, p[1], interval, largest)
     most = largest if weights.size == 0 else np.inf
@@ -224,11 +197,16 @@ def _turned(part: Part, now: float) -> tuple[float, float]:
 def column(forcing: Forcing, scales: Array, sides: Sides, no_rocking: float, work: Series | None) -> Codes:
     """Outcomes under many multiples of a motion, as `OUTCOMES`; the block rocks where |θ|/α is above `no_rocking`."""
     omega, phase, interval, times, levels, weights = forcing
-    outcomes, nothing = np.empty(scales.size, dtype=np.int8), np.empty(0)
-    watch = Watch(0, no_rocking, nothing, nothing, np.empty((0, 2)))
+    outcomes, (left, right) = np.empty(scales.size, dtype=np.int8), sides.critical
+    # Of a record the angles are kept, so that quiet samples are passed over; its peak is that of its samples.
+    is_record = times.size == 0
+    angles, velocities = np.zeros((2, levels.size if is_record else 0))
+    watch = Watch(levels.size if is_record else 0, no_rocking, angles, velocities, np.empty((0, 2)))
     for index in range(scales.size):
         scaled = Forcing(omega, phase, interval, times, scales[index] * levels, weights)
         time, peak, _count = march(scaled, sides, 0.0, 0.0, watch, work)
+        if is_record:
+            peak = max(-angles.min() / left, angles.max() / right)
         outcomes[index] = OVERTURNS if time == time else ROCKS if peak > no_rocking else STANDS
     return outcomes
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, pi, tan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,10 +14,9 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
 from colonnade.dynamics.models import Model, plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.restitution_law import Given
+from colonnade.dynamics.rock import Given
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.plane.march import Forcing
     from colonnade.dynamics.plane.sides import Sides
 
 LARGEST_ACCELERATION = 1e6
@@ -31,6 +30,34 @@ OUTCOMES = ("no-rocking", "rocking", "overturned")
 
 STANDS, ROCKS, OVERTURNS = range(len(OUTCOMES))
 """Indices into `OUTCOMES`."""
+
+
+NONE = np.empty(0)
+"""Of what there is not."""
+
+
+class Forcing(NamedTuple):
+    """
+    A base motion in parts: a/g = l(t) sin(ω t + phase), with l and the weight 1 + v/g linear between knots.
+
+    Attributes
+    ----------
+    omega, phase : float
+        rad/s; rad. A record has ω = 0 and phase = π/2.
+    interval : float
+        s, between the knots of a record.
+    times : ndarray, shape (n,)
+        s, of the knots; empty for a record. Two at the same time make a jump.
+    levels, weights : ndarray, shape (n,)
+        l and 1 + v/g at the knots; no weights where the base moves along x only.
+    """
+
+    omega: float
+    phase: float
+    interval: float
+    times: Array
+    levels: Array
+    weights: Array
 
 
 def run(
@@ -54,8 +81,6 @@ def run(
 
 def forcing_of(motion: Motion, gravity: float) -> Forcing:
     """Put a base motion along x and, if given, z into the form that the kernels take; gravity in m/s²."""
-    from colonnade.dynamics.plane.march import NONE, Forcing
-
     weights = NONE if motion.vertical is None else 1.0 + motion.vertical / gravity
     return Forcing(0.0, 0.5 * pi, motion.dt, NONE, motion.acceleration / gravity, weights)
 
@@ -178,14 +203,12 @@ class Harmonic:
 
     def forcing(self, *times: float) -> Forcing:
         """Put it into the form that the kernels take, with knots at some times (s) too."""
-        from colonnade.dynamics.plane.march import NONE, Forcing
-
         knots = np.unique([0.0, *self.edges, *(time for time in times if time < self.edges[2])])
         return Forcing(self.omega, self.phase, 0.0, knots, self.level(knots), NONE)
 
 
-def harmonic_outcomes(block: Block, motion: Harmonic, amplitude_ratio: Array, restitution: Given, model: str) -> Codes:
-    """Outcomes of many A under one motion, indices into `OUTCOMES`, shape (n,)."""
+def outcomes_of(amplitude_ratio: Array, *, block: Block, forcing: Forcing, restitution: Given, model: str) -> Codes:
+    """Outcomes of many A from rest under a motion that is given over A tan α, indices into `OUTCOMES`, shape (n,)."""
     from colonnade.dynamics.plane.arc import empty_series
     from colonnade.dynamics.plane.march import column
     from colonnade.dynamics.plane.sides import sides_of
@@ -193,4 +216,4 @@ def harmonic_outcomes(block: Block, motion: Harmonic, amplitude_ratio: Array, re
     scales = amplitude_ratio * tan(block.critical_angle)
     sides = sides_of(block, restitution)
     work = None if plane_model_of(model).is_linearised else empty_series()
-    return column(motion.forcing(), scales, sides, NO_ROCKING_RATIO, work)
+    return column(forcing, scales, sides, NO_ROCKING_RATIO, work)

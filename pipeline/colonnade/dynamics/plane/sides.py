@@ -11,8 +11,7 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kernel import kernel_in_place
 from colonnade.dynamics.plane.arc import excess_rise
-from colonnade.dynamics.restitution_law import Given, RestitutionLaw, of_sides
-from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, Given, RestitutionLaw, of_sides
 
 Pair = tuple[float, float]
 """Of the side θ < 0 and of θ > 0."""
@@ -51,12 +50,6 @@ def sides_of(block: Block, restitution: Given, rest_angle: float = DEFAULT_REST_
 def of_side(pair: Pair, here: int) -> float:
     """Choose by side; compiled, an index that is not constant branches and may raise."""
     return pair[1] if here else pair[0]
-
-
-@kernel_in_place
-def uplift_threshold(critical: float, linearised: bool) -> float:
-    """Return |a/g| above which a block at rest uplifts."""
-    return critical if linearised else tan(critical)
 
 
 @kernel_in_place
