@@ -8,7 +8,9 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from colonnade.dynamics.plane.run import outcomes_of
 from colonnade.dynamics.pulses import PULSES, mavroeidis_papageorgiou, ricker, sampled_pulse
+from prism import PRISM
 
 
 @settings(max_examples=30)
@@ -47,3 +49,18 @@ def test_every_pulse_says_what_it_is(name):
     assert PULSES[name].definition
     assert PULSES[name].source
     assert (PULSES[name].cycles is None) == (name in ("ricker", "mavroeidis-papageorgiou"))
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+@pytest.mark.parametrize("name", PULSES)
+def test_outcomes_under_a_pulse_do_not_depend_on_those_before(name, model):
+    amplitudes = np.array([8.0, 1.3, 0.5, 2.0, 1.1])
+    asked = {
+        "block": PRISM,
+        "forcing": PULSES[name].forcing(PRISM, 2.0 * PRISM.p, 2.0, 0.0),
+        "restitution": (0.95, 0.95),
+        "model": model,
+    }
+    alone = [outcomes_of(np.array([each]), **asked)[0] for each in amplitudes]
+    assert outcomes_of(amplitudes, **asked).tolist() == alone
+    assert alone[0] > alone[2] == 0

@@ -195,15 +195,13 @@ def response_spectrum(
     """
     periods = np.asarray(period, dtype=np.float64)
     from_zero = np.concatenate(([0.0], acceleration))
-    finer: dict[int, Array] = {}
     largest = np.empty_like(periods)
     for index, each in enumerate(periods):
         parts = max(ceil(FEWEST_PER_PERIOD * interval / each), 1)
-        if parts not in finer:
-            # Further samples on the motion's own lines.
-            fine = np.arange((from_zero.size - 1) * parts + 1) / parts
-            finer[parts] = np.interp(fine, np.arange(from_zero.size), from_zero)
-        response = scipy.signal.lfilter(*_recursion(2 * pi / each, damping, interval / parts), finer[parts])
+        # Further samples on the motion's own lines.
+        fine = np.arange((from_zero.size - 1) * parts + 1) / parts
+        finer = np.interp(fine, np.arange(from_zero.size), from_zero)
+        response = scipy.signal.lfilter(*_recursion(2 * pi / each, damping, interval / parts), finer)
         largest[index] = np.abs(response).max(initial=0.0)
     return np.asarray((2 * pi / periods) ** 2 * largest)
 

@@ -194,21 +194,29 @@ def _turned(part: Part, now: float) -> tuple[float, float]:
 
 
 @kernel
-def column(forcing: Forcing, scales: Array, sides: Sides, no_rocking: float, work: Series | None) -> Codes:
-    """Outcomes under many multiples of a motion, as `OUTCOMES`; the block rocks where |θ|/α is above `no_rocking`."""
+def column(
+    forcing: Forcing, scales: Array, sides: Sides, no_rocking: float, work: Series | None
+) -> tuple[Codes, Array]:
+    """
+    Outcomes from rest under many multiples of a motion, as `OUTCOMES`, and the largest |θ|/α, NaN where it overturns.
+
+    The block rocks where that is above `no_rocking`. Under a record it is the largest at the samples; under another
+    motion it is exact up to `no_rocking` only.
+    """
     omega, phase, interval, times, levels, weights = forcing
-    outcomes, (left, right) = np.empty(scales.size, dtype=np.int8), sides.critical
-    # Of a record the angles are kept, so that quiet samples are passed over; its peak is that of its samples.
+    outcomes, peaks, (left, right) = np.empty(scales.size, dtype=np.int8), np.empty(scales.size), sides.critical
+    # Of a record the angles are kept, so that quiet samples are passed over.
     is_record = times.size == 0
-    angles, velocities = np.zeros((2, levels.size if is_record else 0))
-    watch = Watch(levels.size if is_record else 0, no_rocking, angles, velocities, np.empty((0, 2)))
     for index in range(scales.size):
+        angles, velocities = np.zeros((2, levels.size if is_record else 0))
+        watch = Watch(levels.size if is_record else 0, no_rocking, angles, velocities, np.empty((0, 2)))
         scaled = Forcing(omega, phase, interval, times, scales[index] * levels, weights)
         time, peak, _count = march(scaled, sides, 0.0, 0.0, watch, work)
         if is_record:
             peak = max(-angles.min() / left, angles.max() / right)
         outcomes[index] = OVERTURNS if time == time else ROCKS if peak > no_rocking else STANDS
-    return outcomes
+        peaks[index] = np.nan if time == time else peak
+    return outcomes, peaks
 
 
 def propagate(

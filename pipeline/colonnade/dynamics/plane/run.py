@@ -141,21 +141,18 @@ def ends_of(motion: Motion, blocks: Sequence[Sides], *, gravity: float, model: s
     -----
     A block that the motion cannot uplift is not run: with a vertical component none is left out.
     """
-    from colonnade.dynamics.plane.march import propagate
+    from colonnade.dynamics.plane.arc import empty_series
+    from colonnade.dynamics.plane.march import column
 
     chosen, forcing = plane_model_of(model), forcing_of(motion, gravity)
     largest = np.inf if forcing.weights.size > 0 else float(np.abs(forcing.levels).max())
     codes = np.full(len(blocks), STANDS, dtype=np.int8)
     peaks = np.zeros(len(blocks))
+    is_closed = chosen.is_linearised and forcing.weights.size == 0
+    work, once = None if is_closed else empty_series(chosen.is_linearised), np.ones(1)
     for number, sides in enumerate(blocks):
-        if largest <= chosen.uplift_threshold(min(sides.critical)):
-            continue
-        angles, *_, end = propagate(forcing, sides, is_linearised=chosen.is_linearised)
-        if np.isfinite(end.time):
-            codes[number], peaks[number] = OVERTURNS, np.nan
-            continue
-        peaks[number] = max(-angles.min() / sides.critical[0], angles.max() / sides.critical[1])
-        codes[number] = ROCKS if peaks[number] > NO_ROCKING_RATIO else STANDS
+        if largest > chosen.uplift_threshold(min(sides.critical)):
+            (codes[number],), (peaks[number],) = column(forcing, once, sides, NO_ROCKING_RATIO, work)
     return codes, peaks
 
 
@@ -216,4 +213,4 @@ def outcomes_of(amplitude_ratio: Array, *, block: Block, forcing: Forcing, resti
     scales = amplitude_ratio * tan(block.critical_angle)
     sides = sides_of(block, restitution)
     work = None if plane_model_of(model).is_linearised else empty_series()
-    return column(forcing, scales, sides, NO_ROCKING_RATIO, work)
+    return column(forcing, scales, sides, NO_ROCKING_RATIO, work)[0]
