@@ -140,7 +140,7 @@ def test_an_island_is_kept_apart_from_the_limits():
         ("sinus", {}, 'Unknown pulse "sinus"'),
         ("sine", {"model": "x"}, "Unknown plane model"),
         ("sine", {"edge": 0.0}, "edge"),
-        ("sine", {"frequency_ratio": [-1.0]}, "frequency_ratio goes from -1"),
+        ("sine", {"frequency_ratio": [-1.0]}, "frequency_ratio is -1.0; a number from"),
         ("mavroeidis-papageorgiou", {"cycles": 0.5}, "cycles is 0.5"),
     ],
 )
