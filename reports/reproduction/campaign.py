@@ -17,8 +17,7 @@ from colonnade.laboratory import paper_programme, write_campaign
 from colonnade.laboratory.plan import Plan
 from colonnade.laboratory.programme import COLUMNS, LADDERS, LASTING, RAMP, sine
 from colonnade.store.files import write_text
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps import Wanted, make_maps
 from reproduction.printed import FREQUENCIES, SHOWN, SHOWN_FREQUENCY, TABLE_1
 
 SEED = 0

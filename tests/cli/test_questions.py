@@ -228,7 +228,7 @@ def test_a_map_is_written_with_its_picture(colonnade, campaign):
 
 def test_commands_have_one_default_model():
     from colonnade.campaign.assessment import Assessment
-    from colonnade.workflow.map_plans import Wanted
+    from colonnade.workflow.maps import Wanted
     from colonnade.workflow.spectrum import AskedSpectrum
 
     asked = (table.model_fields["model"].default for table in (AskedSpectrum, Assessment))
@@ -239,10 +239,10 @@ def test_each_model_has_its_own_map_and_json_tells_where(colonnade, campaign):
     told = colonnade("map", *SMALL, "--model", "nonlinear", "--json")
     assert told.returncode == 0
     (made,) = json.loads(told.stdout)
-    assert (made["specimen"], made["model"], made["action"]) == ("prism", "nonlinear", "done")
+    assert (made["specimen"], made["model"], made["because"]) == ("prism", "nonlinear", "never run")
     assert made["path"].endswith("prism-nonlinear.nc")
     again = json.loads(colonnade("map", *SMALL, "--model", "nonlinear", "--json").stdout)
-    assert again[0]["action"] == "up-to-date"
+    assert again[0]["because"] == ""
 
 
 @pytest.mark.whole
@@ -252,16 +252,15 @@ def test_several_models_and_their_responses_are_written_with_a_picture_together(
     assert (told.returncode, told.stderr) == (0, "")
     maps = campaign / "processed" / "maps"
     written = {path.name for path in maps.iterdir()}
-    kinds = (".nc", ".svg", "-response.nc", "-response.svg")
+    kinds = (".nc", "-response.nc", "-response.svg")
     each = {f"prism-{model}{kind}" for model in ("linear", "nonlinear") for kind in kinds}
     assert written == each | {"prism-linear+nonlinear.svg"}
-    assert f"together: {maps / 'prism-linear+nonlinear.svg'}" in told.stdout
+    assert f"figure: {maps / 'prism-linear+nonlinear.svg'}" in told.stdout
     together = (maps / "prism-linear+nonlinear.svg").read_text(encoding="utf-8")
     assert all(f"{model}: lower limit" in together for model in ("linear", "nonlinear"))
-    assert "linear ramps of 1" in (maps / "prism-linear.svg").read_text(encoding="utf-8")
     made = json.loads(colonnade("map", *SMALL, *models, "--ramp", "1", "--json").stdout)
-    said = [(each["model"], each["action"], each["responses"]) for each in made]
-    assert said == [(model, "up-to-date", None) for model in ("linear", "nonlinear")]
+    said = [(each["model"], each["kind"], each["because"]) for each in made]
+    assert said == [(model, "map", "") for model in ("linear", "nonlinear")]
 
 
 CONTACT = """

@@ -4,8 +4,7 @@ import pytest
 
 from colonnade.errors import CampaignError
 from colonnade.workflow.calibration import calibrate
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps import Wanted, make_maps
 
 pytestmark = pytest.mark.whole
 

@@ -13,8 +13,7 @@ import pytest
 from colonnade.errors import ColonnadeError
 from colonnade.store import files
 from colonnade.workflow.executors import spread
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps import Wanted, make_maps
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
 pytestmark = pytest.mark.whole

@@ -20,8 +20,7 @@ from colonnade.workflow.advising.next import advise_kind
 from colonnade.workflow.assessing import Where, assess_campaign
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.check import check
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps import Wanted, make_maps
 from colonnade.workflow.pooling import one_specimen, restitution_taken
 from prism import PRISM
 
@@ -115,7 +114,7 @@ def test_a_map_needs_the_law_and_then_is_made(in_space):
     assert stored["outcome"].to_numpy()[:, [0, -1]].tolist() == [[0, 2], [0, 2]]
     options = json.loads(stored.attrs["settings"])
     assert (options["model"], options["damping_fraction"], options["contact_step"]) == ("contact", 0.3, 3e-5)
-    assert make_maps(in_space.folder, wanted, workers=1)[0].action == "up-to-date"
+    assert not make_maps(in_space.folder, wanted, workers=1)[0].because
 
 
 def test_a_map_of_several_bodies_is_made_by_the_contact_model_alone(in_space):
@@ -221,7 +220,6 @@ def test_limits_beside_those_of_the_contact_model_are_found_alike(in_space):
     calibrate(in_space.folder, workers=1)
     plain = Wanted(models=("linear",), omega=(2.0, 3.0), amplitude=(0.8, 6.0), points=(2, 3), cycles=2.0)
     (alone,) = make_maps(in_space.folder, plain, workers=1)
-    assert alone.action == "done"
     assert _width(alone) == 0.01
     beside = make_maps(in_space.folder, Wanted(**(plain.model_dump() | {"models": ("linear", "contact")})), workers=1)
     assert [_width(made) for made in beside] == [4 * 2.6, 4 * 2.6]

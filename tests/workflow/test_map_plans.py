@@ -8,8 +8,8 @@ from colonnade.campaign.syntax.fields import MOST_CYCLES
 from colonnade.dynamics.models import MODELS
 from colonnade.errors import CampaignError
 from colonnade.identification.response.boundaries import MapPoint
-from colonnade.workflow import map_plans as plans
-from colonnade.workflow.map_plans import Measured, Wanted
+from colonnade.workflow import maps as plans
+from colonnade.workflow.maps import Measured, Wanted
 from colonnade.workflow.real_column import picked
 from every import every
 
@@ -61,9 +61,6 @@ def test_without_sine_tests_the_axes_are_the_usual_ones(untouched):
     assert (plan.amplitude_ratio[0], plan.amplitude_ratio[-1]) == (plans.LOWEST_AMPLITUDE, plans.USUAL_AMPLITUDE)
     assert (plan.frequency_ratio.size, plan.amplitude_ratio.size) == (3, 4)
     assert plan.restitution == (0.93, 0.93)
-
-
-def test_the_models_own_number_of_points_is_used(untouched):
     plan = planned(untouched, changed(FEW, points=None))
     assert (plan.frequency_ratio.size, plan.amplitude_ratio.size) == MODELS["linear"].map_points
 
@@ -95,8 +92,3 @@ def test_what_cannot_be_asked_is_refused_by_its_option(changes, said):
     with pytest.raises(CampaignError) as caught:
         picked(Wanted, changes)
     assert str(caught.value).startswith(said)
-
-
-def test_e_of_a_map_has_a_value_for_each_side_and_its_source(untouched):
-    untouched.edit('mass = "26.10 kg"}', 'mass = "26.10 kg", restitution = [0.9, 0.8]}')
-    assert plans.restitution_of(load(untouched.folder), untouched.layout, "prism") == ((0.9, 0.8), "given")

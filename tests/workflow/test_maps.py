@@ -13,12 +13,11 @@ from colonnade.dynamics.maps import MapPlan, stability_map, steady_response
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store import files
 from colonnade.store.results import ResultId
-from colonnade.workflow import map_plans as plans
+from colonnade.workflow import maps as plans
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import SETTLING, as_map, as_response, given, kept_maps, make_maps
+from colonnade.workflow.maps import SETTLING, Wanted, as_map, as_response, given, kept_maps, make_maps
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk
 from every import every
@@ -41,7 +40,7 @@ def made(small, wanted=FEW, **options):
 
 def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small):
     result = made(small)
-    assert (result.restitution_source, result.action, result.because) == ("identified", "done", "never run")
+    assert (result.restitution_source, result.because) == ("identified", "never run")
     stored = as_map(files.read(result.path))
     pooled = files.read(small.layout.stage("prism", "specimen"))
     e = tuple(float(value) for value in pooled["side_restitution"])
@@ -53,8 +52,8 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
 
 
 def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
-    assert made(small).action == "done"
-    assert made(small).action == "up-to-date"
+    assert made(small).because == "never run"
+    assert made(small).because == ""
     assert made(small, asking(ramp=1.0)).because == "settings changed"
     small.edit('height = "456 mm"', 'height = "460 mm"')
     assert made(small, asking(ramp=1.0)).because == "upstream changed"
@@ -111,8 +110,7 @@ def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
 
 MAP = """
 import sys
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps import Wanted, make_maps
 wanted = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(60, 10), cycles=5.0)
 make_maps(sys.argv[1], wanted, workers=1, progress=lambda done, total: print(done, flush=True))
 """
@@ -139,36 +137,35 @@ WITH_RESPONSES = Wanted(
 
 
 def responses_made(small, **changes):
-    (only,) = make_maps(small.folder, Wanted(**(WITH_RESPONSES.model_dump() | changes)), workers=1)
-    return only
+    """Give the map, and the responses."""
+    return make_maps(small.folder, Wanted(**(WITH_RESPONSES.model_dump() | changes)), workers=1)
 
 
 def test_they_are_those_of_the_library_and_made_once(small):
-    result = responses_made(small)
-    stored = as_response(files.read(result.responses))
+    _, result = responses_made(small)
+    stored = as_response(files.read(result.path))
     e = tuple(float(value) for value in files.read(small.layout.stage("prism", "specimen"))["side_restitution"])
     axes = {"frequency_ratio": np.linspace(2.0, 5.0, 6), "amplitude_ratio": np.linspace(0.8, 2.0, 10)}
     expected = steady_response(MapPlan(PRISM, restitution=e, **axes), range(6), SETTLING)
     assert set(np.unique(expected.order)) >= {-2, 0, 1}
     for name in ("order", "amplitude"):
         np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)
-    assert "every cycle" in result.responses_figure.read_text(encoding="utf-8")
-    assert responses_made(small).action == "up-to-date"
-    assert responses_made(small, phase=1.0).action == "done"
-    result.responses.unlink()
-    assert responses_made(small, phase=1.0).action == "done"
+    assert "every cycle" in result.figure.read_text(encoding="utf-8")
+    assert [each.because for each in responses_made(small)] == ["", ""]
+    assert [each.because for each in responses_made(small, phase=1.0)] == ["settings changed"] * 2
+    result.path.unlink()
+    assert [each.because for each in responses_made(small, phase=1.0)] == ["", "never run"]
 
 
 def test_they_depend_on_the_sine_and_on_their_own_settling_and_not_on_the_cycles_of_the_map(small):
     few = {"points": (2, 3)}
-    settings = json.loads(files.read(responses_made(small, **few).responses).attrs["settings"])
+    _, before = responses_made(small, **few)
+    settings = json.loads(files.read(before.path).attrs["settings"])
     assert settings["settling"] == SETTLING
     assert settings["model"] == "linear"
     assert settings.keys().isdisjoint({"cycles", "width", "edge"})
-    before = responses_made(small, **few).responses.stat().st_mtime_ns
-    longer = responses_made(small, cycles=6.0, **few)
-    assert longer.because == "settings changed"
-    assert longer.responses.stat().st_mtime_ns == before
+    longer, same = responses_made(small, cycles=6.0, **few)
+    assert (longer.because, same.because) == ("settings changed", "")
 
 
 LINEAR = Wanted(models=("linear",))
@@ -221,7 +218,7 @@ def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
     kept(small, summary)
     by_run = files.read(small.layout.stage("prism", "map", "linear"))
     (made,) = make_maps(small.folder, LINEAR, workers=1)
-    assert made.action == "up-to-date"
+    assert not made.because
     made.path.unlink()
     (made,) = make_maps(small.folder, LINEAR, workers=1)
     assert made.because == "never run"

@@ -12,8 +12,7 @@ from colonnade.cli import invoke
 from colonnade.errors import CampaignError, StoreError
 from colonnade.laboratory import prism_programme, write_campaign
 from colonnade.workflow.calibration import calibrate
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps import Wanted, make_maps
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 

@@ -27,8 +27,7 @@ if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
     from colonnade.workflow.assessing import Assessed
     from colonnade.workflow.foresee import AskedForecast, Forecast
-    from colonnade.workflow.map_plans import Wanted
-    from colonnade.workflow.maps import MapMade
+    from colonnade.workflow.maps import MapMade, Wanted
     from colonnade.workflow.real_column import Given
     from colonnade.workflow.spectrum import AskedSpectrum
 
@@ -239,7 +238,7 @@ def _show_assessed(assessed: Assessed) -> None:
 @click.command(
     "map",
     cls=options.Asking,
-    asks="colonnade.workflow.map_plans:Wanted",
+    asks="colonnade.workflow.maps:Wanted",
     epilog="Example: colonnade map demo --specimen prism --omega 1.1 7.8 --ramp 3",
 )
 @options.campaign_argument
@@ -258,7 +257,7 @@ def map_command(
 
     An interrupted map is continued. An existing map is only redrawn.
 
-    Writes processed/maps/<SPECIMEN>-<MODEL>.nc and a picture of it; with --responses also
+    Writes processed/maps/<SPECIMEN>-<MODEL>.nc, and one picture of the maps of all models; with --responses also
     <SPECIMEN>-<MODEL>-response.nc and its picture.
     """
     from colonnade.workflow.maps import make_maps
@@ -269,23 +268,18 @@ def map_command(
         show_json(made)
         return
     for each in made:
-        _show_limits(each)
-        say(f"map: {each.path}")
-        say(f"figure: {each.figure}")
-        if each.responses is not None:
-            say(f"responses: {each.responses}")
-            say(f"figure: {each.responses_figure}")
-    for together in dict.fromkeys(each.together for each in made if each.together is not None):
-        say(f"together: {together}")
+        say(f"{each.specimen}, {each.model} model: {_how(each)}")
+        say(f"{each.kind}: {each.path}")
+    for figure in dict.fromkeys(each.figure for each in made):
+        say(f"figure: {figure}")
 
 
-def _show_limits(made: MapMade) -> None:
+def _how(made: MapMade) -> str:
     from colonnade.workflow.product import NEVER_RUN
 
-    measured = count(made.measured, "measured point")
     why = f"computed again, {made.because}" if made.because else "up to date"
     why = "computed" if made.because == NEVER_RUN else why
-    say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {why}")
+    return f"{count(made.measured, 'measured point')}, e {made.restitution_source}; {why}"
 
 
 @click.command(epilog="Example: colonnade calibrate demo --specimen prism")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -112,10 +111,6 @@ class Layout:
     def figure(self, result: ResultId) -> Path:
         """Picture of a map or of steady responses, next to its file."""
         return self.path(result).with_suffix(".svg")
-
-    def together(self, specimen: str, models: Sequence[str]) -> Path:
-        """Picture of the limits of several models' maps."""
-        return self.figure(ResultId(specimen, "map", "+".join(models)))
 
     def blocks(self, result: ResultId) -> Path:
         """Folder of the finished blocks of an unfinished result."""

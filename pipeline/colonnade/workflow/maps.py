@@ -1,20 +1,25 @@
-"""Stability maps and steady responses of a campaign's specimens: products of a run or a command, and their figures."""
+"""Stability maps and steady responses of a campaign's specimens: what is asked, the products, and their figures."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from math import radians
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
-from pydantic import RootModel
+from pydantic import Field, RootModel
 
-from colonnade.campaign import load
+from colonnade.campaign import Campaign, load
+from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.forms.summary import Summary
-from colonnade.dynamics.block import pair
-from colonnade.dynamics.models import MODELS
+from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
+from colonnade.campaign.syntax.table import Table
+from colonnade.dynamics.block import Sided, pair
+from colonnade.dynamics.models import MODELS, NONLINEAR
 from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint, makes_map
 from colonnade.store import files
@@ -25,14 +30,14 @@ from colonnade.store.records.summary import map_points, read_summary
 from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.executors import Arrays, Counted, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.map_plans import Measured, Wanted, plan_of, restitution_of
-from colonnade.workflow.pooling import expect_known
+from colonnade.workflow.pooling import expect_known, restitution_taken
 from colonnade.workflow.product import Product, stored_attributes
 from colonnade.workflow.walk import Walk, walking
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from colonnade.dynamics.contact.body import InSpace
     from colonnade.dynamics.maps import MapPlan, SteadyResponse
 
 MADE_BY = ("colonnade.dynamics.maps", "colonnade.workflow.maps")
@@ -44,6 +49,57 @@ ASKED = "asked_for"
 SETTLING = 400
 """Cycles at full amplitude before a response is looked at."""
 
+USUAL_FREQUENCIES = (1.0, 8.0)
+"""Ω of a map of a specimen without sine tests."""
+
+LOWEST_AMPLITUDE, USUAL_AMPLITUDE = 0.5, 8.0
+"""Smallest A of a map, and the least value of its largest A: the upper limit is far above the tests."""
+
+LARGEST_AMPLITUDE_IN_SPACE = 3.5
+"""The same largest A if the contact model is among the models."""
+
+_Cycles = Annotated[Number, Field(ge=0.0, le=MOST_CYCLES)]
+
+
+class Wanted(Table):
+    """What a map is asked to show."""
+
+    models: tuple[Annotated[str, OneOf(tuple(MODELS))], ...] = (NONLINEAR.name,)
+    """Model of rocking; each has a map of its own, and one picture shows the limits of all."""
+    omega: Limits[MapRatio] | None = None
+    """Frequency ratios Ω; by default around the sine tests."""
+    amplitude: Limits[MapRatio] | None = None
+    """Amplitude ratios A; by default around the sine tests."""
+    points: tuple[MapPoints, MapPoints] | None = None
+    """Numbers of Ω and of A; by default 24 and 150, for the contact model 14 and 31."""
+    cycles: _Cycles = 20.0
+    """Cycles at full amplitude."""
+    phase: Annotated[Number, Field(ge=-360.0, le=360.0)] = 0.0
+    """Phase of the sine at its start, in degrees."""
+    ramp: _Cycles = 0.0
+    """Cycles of the linear rise, and of the fall."""
+    responses: bool = False
+    """Also compute the orders and amplitudes of the steady responses, with curves."""
+
+    def text(self) -> str:
+        """Write what a map of one model is asked for with, as it is stored with the map; of others, those in space."""
+        in_space = tuple(name for name in self.models if MODELS[name].in_space)
+        return self.model_copy(update={"models": in_space}).model_dump_json(exclude={"responses"})
+
+    @classmethod
+    def of(cls, text: str, model: str) -> Wanted:
+        """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
+        asked = json.loads(text)
+        return cls(**asked | {"models": tuple(dict.fromkeys((model, *asked["models"])))})
+
+
+class Measured(NamedTuple):
+    """What was measured of a specimen: its sine tests, which a map has to include, its e, and where that comes from."""
+
+    points: Sequence[MapPoint]
+    restitution: Sided
+    source: str
+
 
 class Options(RootModel[dict[str, Any]]):
     """What a map or steady responses depend on besides what is `given`, by name."""
@@ -52,36 +108,30 @@ class Options(RootModel[dict[str, Any]]):
 @dataclass(frozen=True)
 class MapMade:
     """
-    A specimen's map.
+    A map of a specimen, or its steady responses.
 
     Attributes
     ----------
     specimen, model : str
+    kind : str
+        map or responses.
+    path, figure : Path
+        The picture of a map shows all models that are asked for.
     restitution_source : str
         given, identified or rigid-body.
-    path, figure : Path
-    together : Path or None
-        Picture with the limits of all models, if there are several.
-    responses, responses_figure : Path or None
-        Steady responses, if requested.
     measured : int
         Sine tests drawn on it.
-    action : str
-        done, or up-to-date if nothing was recomputed.
     because : str
-        Why they were made, see `StageRun`; empty if they were not.
+        Why it was made, see `StageRun`; empty if it was up to date.
     """
 
     specimen: str
     model: str
-    restitution_source: str
+    kind: str
     path: Path
     figure: Path
-    together: Path | None
-    responses: Path | None
-    responses_figure: Path | None
+    restitution_source: str
     measured: int
-    action: str
     because: str
 
 
@@ -128,9 +178,8 @@ def make_maps(
     layout, where = Layout.of(loaded.path, results), Where(workers, scheduler, progress)
     with walking(loaded, layout, where) as walk:
         usual = [name for name in loaded.of_interest if models_moving(loaded, name, wanted.models)]
-        return [
-            made for name in (specimens or usual or loaded.of_interest) for made in _of_specimen(walk, name, wanted)
-        ]
+        named = specimens or usual or loaded.of_interest
+        return [made for specimen in named for made in _of_specimen(walk, specimen, wanted)]
 
 
 def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Iterator[Product]:
@@ -169,48 +218,30 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
                 yield usual if asked.why(stored_attributes) else asked
 
 
-def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> list[MapMade]:
-    """Make the maps of one specimen, one for each model, and a common picture of several models."""
-    layout, models = walk.graph.layout, list(dict.fromkeys(wanted.models))
-    summary = read_summary(layout)
-    points = [] if summary is None else map_points(summary.tests, specimen)
-    measured = Measured(points, *restitution_of(walk.graph.campaign, layout, specimen))
-    together = layout.together(specimen, models) if len(models) > 1 else None
-    made = [_made(walk, specimen, wanted, model, measured, together) for model in models]
-    if together is not None:
-        _draw([files.read(each.path) for each in made], points, together, specimen)
-    return made
-
-
-def _made(walk: Walk, specimen: str, wanted: Wanted, model: str, measured: Measured, together: Path | None) -> MapMade:
+def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> Iterator[MapMade]:
+    """Make the maps and responses of one specimen, by each model, and one picture of its maps."""
     from colonnade.figures.maps import response_orders
 
-    layout = walk.graph.layout
-    plan, product = _map(walk.graph, specimen, wanted, model, measured, walk.where)
-    stored, because = _brought(walk, product)
-    figure = layout.figure(product.result)
-    _draw([stored], measured.points, figure, specimen)
-    responses = responses_figure = None
-    if wanted.responses:
-        asked = _responses(walk.graph, specimen, plan, measured.source, walk.where)
-        responses, responses_figure = asked.paths[0], layout.figure(asked.result)
-        steady, why = _brought(walk, asked)
-        because = why or because
-        drawn = response_orders.responses(specimen, as_response(steady), measured.points, _settings(plan))
-        files.write_text(responses_figure, drawn.svg)
-    return MapMade(
-        specimen=specimen,
-        model=model,
-        restitution_source=measured.source,
-        path=product.paths[0],
-        figure=figure,
-        together=together,
-        responses=responses,
-        responses_figure=responses_figure,
-        measured=len(measured.points),
-        action="done" if because else "up-to-date",
-        because=because,
-    )
+    graph, layout, models = walk.graph, walk.graph.layout, list(dict.fromkeys(wanted.models))
+    summary = read_summary(layout)
+    points = [] if summary is None else map_points(summary.tests, specimen)
+    pooled = restitution_taken(graph.campaign, layout, specimen)
+    negative, positive = (float(e) for e in pooled["side_restitution"])
+    measured = Measured(points, (negative, positive), str(pooled.attrs["restitution_source"]))
+    together, charts = layout.figure(ResultId(specimen, "map", "+".join(models))), []
+    for model in models:
+        plan, product = _map(graph, specimen, wanted, model, measured, walk.where)
+        stored, because = _brought(walk, product)
+        charts.append(as_map(stored))
+        yield MapMade(specimen, model, "map", product.paths[0], together, measured.source, len(points), because)
+        if wanted.responses:
+            asked = _responses(graph, specimen, plan, measured.source, walk.where)
+            steady, because = _brought(walk, asked)
+            figure = layout.figure(asked.result)
+            drawn = response_orders.responses(specimen, as_response(steady), points, _settings(plan))
+            files.write_text(figure, drawn.svg)
+            yield MapMade(specimen, model, "responses", asked.paths[0], figure, measured.source, len(points), because)
+    files.write_text(together, response_orders.computed(specimen, charts, points).svg)
 
 
 def _brought(walk: Walk, product: Product) -> tuple[xr.Dataset, str]:
@@ -220,6 +251,79 @@ def _brought(walk: Walk, product: Product) -> tuple[xr.Dataset, str]:
     if made.action == "failed":
         raise StoreError(made.reason)
     return files.read(product.paths[0]), made.because
+
+
+def plan_of(
+    campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, model: str, measured: Measured
+) -> MapPlan:
+    """
+    Plan a specimen's map.
+
+    Raises
+    ------
+    CampaignError
+        If no map can be made so, or the model does not move the specimen.
+    """
+    from colonnade.dynamics.maps import EDGE, MapPlan
+    from colonnade.dynamics.search import STEPS_A_WIDTH, WIDTH
+
+    if model not in models_moving(campaign, specimen, (model,)):
+        raise CampaignError(
+            f"{specimen}: {APART}, which the {model} model moves. Give --model contact, or another --specimen."
+        )
+    omegas = wanted.omega or _around([point.frequency_ratio for point in measured.points], USUAL_FREQUENCIES)
+    largest = max((1.2 * point.amplitude_ratio for point in measured.points), default=0.0)
+    space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
+    in_space = [MODELS[name] for name in wanted.models if MODELS[name].in_space]
+    usual = LARGEST_AMPLITUDE_IN_SPACE if in_space else USUAL_AMPLITUDE
+    amplitudes = wanted.amplitude or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
+    grid = wanted.points or MODELS[model].map_points
+    width, edge = WIDTH, EDGE
+    if in_space:
+        # A contact map runs its own points only: an interval narrower than four of them makes no limit, nor does it
+        # on the maps of other models in the same picture.
+        points_in_space = wanted.points or in_space[0].map_points
+        spacing = (amplitudes[1] - amplitudes[0]) / (points_in_space[1] - 1)
+        width, edge = STEPS_A_WIDTH * spacing, EDGE if space is None else spacing / 8
+    try:
+        return MapPlan(
+            campaign.block(specimen),
+            frequency_ratio=np.linspace(*omegas, grid[0]),
+            amplitude_ratio=np.linspace(*amplitudes, grid[1]),
+            restitution=measured.restitution,
+            cycles=wanted.cycles,
+            phase=radians(wanted.phase),
+            ramp=wanted.ramp,
+            model=model,
+            width=width,
+            edge=edge,
+            space=space,
+        )
+    except ValueError as error:
+        raise CampaignError(f"This map cannot be made: {str(error).rstrip('.')}.") from error
+
+
+def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
+    """Body and law of contact of a specimen, as `predict` or `calibrate` has left it."""
+    from colonnade.dynamics.contact.body import InSpace
+    from colonnade.stages import contact
+
+    whole, settings = campaign.specimens[specimen], campaign.processing.predict.contact
+    if isinstance(whole, Whole):
+        return InSpace(whole.assembly(campaign.gravity), contact.assembly_law(settings))
+    path = layout.stage(specimen, "contact")
+    law = files.read(path) if path.is_file() else None
+    if law is None or law.attrs["status"] != "done":
+        raise CampaignError(f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first.")
+    own = contact.law_of(law)
+    return InSpace(contact.body_of(contact.ContactInputs.of(campaign, specimen), own), own, settings.step)
+
+
+def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float, float]:
+    """Return a range, in steps of a tenth, that includes the values with some margin; without values, the usual one."""
+    if not values:
+        return usual
+    return float(np.floor(9 * min(values)) / 10), float(np.ceil(11 * max(values)) / 10)
 
 
 def _map(
@@ -274,12 +378,6 @@ def _chart(plan: MapPlan, joined: Arrays) -> xr.Dataset:
     from colonnade.dynamics.maps import StabilityMap
 
     return as_dataset(StabilityMap(amplitude_ratio=plan.amplitude_ratio, options=plan.options, **joined))
-
-
-def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, specimen: str) -> None:
-    from colonnade.figures.maps import response_orders
-
-    files.write_text(path, response_orders.computed(specimen, [as_map(each) for each in stored], points).svg)
 
 
 STEADY = {"order": "steady_order", "amplitude": "steady_peak_ratio"}

@@ -10,7 +10,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store.records.summary import read_summary
-from colonnade.workflow.advising.sine import STEP, Known, advise_earthquakes, advise_sines
+from colonnade.workflow.advising.sine import STEP, advise_earthquakes, advise_sines
 from foreseeing import foreseen_of
 from prism import entry
 
@@ -22,16 +22,16 @@ def campaign(undisturbed):
     return load(undisturbed.folder)
 
 
-def known(*outcomes, deviation=0.002):
-    points = (MapPoint(f"sine-{place}", OMEGA, ratio, outcome) for place, (ratio, outcome) in enumerate(outcomes))
-    return Known((0.93, 0.93), deviation, tuple(points))
+def advised(campaign, *outcomes):
+    points = [MapPoint(f"sine-{place}", OMEGA, ratio, outcome) for place, (ratio, outcome) in enumerate(outcomes)]
+    return advise_sines(campaign, "prism", points, (0.93, 0.93), 0.002)
 
 
 def test_the_advised_amplitude_is_between_the_outcomes(campaign):
-    (first,) = advise_sines(campaign, "prism", known((1.5, "rocking")))
+    (first,) = advised(campaign, (1.5, "rocking"))
     predicted = first.values["predicted_boundary"]
     low, high = 0.9 * predicted, 1.2 * predicted
-    (advice,) = advise_sines(campaign, "prism", known((low, "rocking"), (high, "overturned")))
+    (advice,) = advised(campaign, (low, "rocking"), (high, "overturned"))
     assert low < advice.values["amplitude_ratio"] < high
     assert low < advice.values["boundary"] < high
     assert 0.3 < advice.risk < 0.7
@@ -42,14 +42,14 @@ def test_the_advised_amplitude_is_between_the_outcomes(campaign):
 
 
 def test_without_sine_tests_nothing_is_advised(campaign):
-    assert advise_sines(campaign, "prism", known()) == []
+    assert advised(campaign) == []
 
 
 def test_a_planned_frequency_is_advised_too(undisturbed, tmp_path):
     text = (undisturbed.folder / "campaign.toml").read_text(encoding="utf-8")
     text += entry("s", "sine", 'frequency = "4 Hz"', "planned = true")
     (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
-    (advice,) = advise_sines(load(tmp_path), "prism", known())
+    (advice,) = advised(load(tmp_path))
     assert advice.values["frequency"] == pytest.approx(4.0)
     assert advice.test.startswith("4 Hz at ")
 
@@ -58,7 +58,7 @@ def test_a_planned_frequency_is_advised_too(undisturbed, tmp_path):
 def test_the_boundary_is_that_of_the_tilted_table(campaign, tilt):
     """Against single runs on the sine with the part of gravity that acts along a tilted table."""
     omega, e = 3.0, 0.75  # a low e: the boundary is sharp
-    (advice,) = advise_sines(campaign, "prism", Known((e, e), 0.0, (MapPoint("s", omega, 0.8, "rocking"),), tilt))
+    (advice,) = advise_sines(campaign, "prism", [MapPoint("s", omega, 0.8, "rocking")], (e, e), 0.0, tilt)
     block, limit = campaign.block("prism"), advice.values["predicted_boundary"]
     step = 2 * pi / (omega * block.p) / 200
     sine = np.sin(2 * pi * np.arange(20 * 200 + 1) / 200)

@@ -22,7 +22,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice, ranked
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 from colonnade.units.text import format_uncertain, interval, number
-from colonnade.workflow.advising.sine import Known, advise_earthquakes, advise_sines
+from colonnade.workflow.advising.sine import advise_earthquakes, advise_sines
 from colonnade.workflow.pooling import expect_known, restitution_taken
 from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date
 
@@ -117,8 +117,8 @@ def advise_kind(
         sines = (test for test in campaign.tests.values() if (test.specimen, test.kind) == (specimen, kind))
         tilts = [campaign.setups[test.setup].table_tilt or 0.0 for test in sines]
         deviation, _ = restitution_spread(pooled, campaign.processing.predict.ensemble.restitution)
-        points = tuple(map_points(tests, specimen))
-        return advise_sines(campaign, specimen, Known(sides(pooled), deviation, points, max(tilts, key=abs, default=0)))
+        tilt = max(tilts, key=abs, default=0.0)
+        return advise_sines(campaign, specimen, map_points(tests, specimen), sides(pooled), deviation, tilt)
     return advise_earthquakes(campaign, layout, specimen, tests) if kind == "earthquake" else []
 
 

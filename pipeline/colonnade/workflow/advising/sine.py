@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from math import atan, pi, sin, tan
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.forecast import ForecastInputs
 from colonnade.campaign.forms.summary import TestSummary
-from colonnade.dynamics.block import Block, pair
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import stability_map
 from colonnade.dynamics.models import MODELS
 from colonnade.dynamics.motion import Motion
@@ -31,17 +32,14 @@ AMPLITUDES = np.linspace(0.5, 8.0, 151)
 """A that are scanned for a predicted limit."""
 
 
-@dataclass(frozen=True)
-class Known:
-    """What is known of a specimen: e of both sides, its standard deviation, its sine tests, the table's tilt (rad)."""
-
-    restitution: tuple[float, float]
-    deviation: float
-    points: tuple[MapPoint, ...]
-    tilt: float = 0.0
-
-
-def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice]:
+def advise_sines(
+    campaign: Campaign,
+    specimen: str,
+    points: Sequence[MapPoint],
+    restitution: tuple[float, float],
+    deviation: float,
+    tilt: float = 0.0,
+) -> list[Advice]:
     """
     Advise the next sine test of a specimen at each frequency that was tested or is planned, by rising frequency.
 
@@ -50,39 +48,50 @@ def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice
     campaign : Campaign
     specimen : str
         Its id.
-    known : Known
+    points : sequence of MapPoint
+        Its sine tests.
+    restitution : tuple of float
+        e of both sides.
+    deviation : float
+        Standard deviation of e; NaN if it is not known.
+    tilt : float, optional
+        Of the table, rad.
+
+    Returns
+    -------
+    advice : list of Advice
+        None at a frequency at which the model does not overturn up to the largest of `AMPLITUDES`.
     """
-    block, settings = campaign.block(specimen), campaign.next
+    block, settings, model = campaign.block(specimen), campaign.next, _model(campaign)
     planned: list[tuple[float, MapPoint | None]] = [
         (2 * pi * test.frequency / block.p, None)
         for test in campaign.tests.values()
         if test.specimen == specimen and test.kind == "sine" and test.frequency and campaign.awaited.get(test.id)
     ]
-    tested = [(point.frequency_ratio, point) for point in known.points]
-    groups = at_one_frequency([*planned, *tested], lambda each: each[0])
-    model = _model(campaign)
+    groups = at_one_frequency([*planned, *((point.frequency_ratio, point) for point in points)], lambda each: each[0])
     if not groups or model is None:
         return []
     ratios = np.array([np.mean([ratio for ratio, _ in group]) for group in groups])
-    limits = _limits(block, known, known.restitution, ratios, model)
-    sensitivity = _sensitivity(block, known, ratios, model)
-    found: dict[int, SineTests] = {}
-    for place in np.flatnonzero(np.isfinite(limits)).tolist():
-        points = [point for _, point in groups[place] if point is not None]
-        fell = [point.outcome == "overturned" for point in points]
-        amplitudes = [point.amplitude_ratio for point in points]
-        found[place] = SineTests(float(limits[place]), amplitudes, fell, float(sensitivity[place]))
+    limits_of = partial(_limits, block, tilt, ratios, model)
+    limits, sensitivity = limits_of(restitution), np.zeros(ratios.size)
+    if deviation > 0.0:
+        low, high = (limits_of(np.clip(np.add(restitution, change), 0.01, 1.0)) for change in (-deviation, deviation))
+        sensitivity = np.clip(np.nan_to_num(np.log(high / low) / 2), -1.0, 1.0)
+    places = np.flatnonzero(np.isfinite(limits))
+    tests = []
+    for place in places.tolist():
+        tested = [point for _, point in groups[place] if point is not None]
+        fell = [point.outcome == "overturned" for point in tested]
+        amplitudes = [point.amplitude_ratio for point in tested]
+        tests.append(SineTests(float(limits[place]), amplitudes, fell, float(sensitivity[place])))
     advised = advise_sine_tests(
-        list(found.values()),
+        tests,
         wanted_width=settings.boundary_width,
         largest_risk=settings.largest_risk,
         discrepancy=settings.discrepancy,
     )
-    with_limit = dict(zip(found, advised, strict=True))
-    return [
-        _advice(campaign, specimen, float(ratio), block, with_limit.get(place), model)
-        for place, ratio in enumerate(ratios)
-    ]
+    found = zip(ratios[places].tolist(), advised, strict=True)
+    return [_advice(campaign, specimen, ratio, block, each, model) for ratio, each in found]
 
 
 def _model(campaign: Campaign) -> str | None:
@@ -91,43 +100,21 @@ def _model(campaign: Campaign) -> str | None:
     return in_plane[-1] if in_plane else None
 
 
-def _limits(block: Block, known: Known, restitution: tuple[float, float], ratios: Array, model: str) -> Array:
+def _limits(block: Block, tilt: float, ratios: Array, model: str, restitution: ArrayLike) -> Array:
     """Give the A from which the specimen overturns; on a tilted table its critical angles are to the vertical."""
-    lean = atan(sin(known.tilt))
+    lean = atan(sin(tilt))
     negative, positive = (side.critical_angle for side in block.sides)
     leaning = block.override(critical_angle=(negative + lean, positive - lean)) if lean else block
+    left, right = np.asarray(restitution).tolist()
     chart = stability_map(
-        leaning, restitution=restitution, frequency_ratio=ratios, amplitude_ratio=AMPLITUDES, model=model
+        leaning, restitution=(left, right), frequency_ratio=ratios, amplitude_ratio=AMPLITUDES, model=model
     )
     return chart.lower * tan(leaning.critical_angle) / tan(block.critical_angle)
 
 
-def _sensitivity(block: Block, known: Known, ratios: Array, model: str) -> Array:
-    """Change of ln A of each limit by one standard deviation of e; 0 where that is not known."""
-    if not known.deviation > 0.0:
-        return np.zeros(ratios.size)
-    ends = []
-    for sign in (-1.0, 1.0):
-        negative, positive = (float(np.clip(e + sign * known.deviation, 0.01, 1.0)) for e in pair(known.restitution))
-        ends.append(_limits(block, known, (negative, positive), ratios, model))
-    return np.clip(np.nan_to_num(np.log(ends[1] / ends[0]) / 2), -1.0, 1.0)
-
-
-def _advice(
-    campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice | None, model: str
-) -> Advice:
-    """Write the advice at one frequency; None where the model does not overturn."""
+def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice, model: str) -> Advice:
+    """Write the advice at one frequency."""
     frequency = ratio * block.p / (2 * pi)
-    if advised is None:
-        return Advice(
-            specimen=specimen,
-            kind="sine",
-            test=f"{number(frequency)} Hz",
-            is_enough=False,
-            reason=f"the {model} model does not overturn up to A {AMPLITUDES[-1]:g}, so there is no boundary to look "
-            "for",
-            values={"frequency": frequency},
-        )
     acceleration = advised.amplitude_ratio * block.gravity * tan(block.critical_angle)
     demand = demand_of_sine(acceleration, frequency)
     low, high = advised.boundary.interval
@@ -140,7 +127,7 @@ def _advice(
         kind="sine",
         test=f"{number(frequency)} Hz at {quantity(acceleration, 'g')} (A {number(advised.amplitude_ratio)})",
         is_enough=advised.is_enough,
-        reason=known + (", as narrow as wanted" if advised.is_enough else ""),
+        reason=f"{known}, as narrow as wanted" if advised.is_enough else known,
         risk=advised.risk,
         left=advised.left,
         demand=demand,
@@ -160,12 +147,6 @@ def _advice(
 
 STEP = 1.2
 """The largest Span that is advised, over the largest that was tested: models err, and a specimen may break."""
-
-CLOSER = 3
-"""Halvings between the last Span that stands more often than not, and the next."""
-
-Outcome = tuple[float, float, float]
-"""Probabilities of rocking and of overturning, and the peak acceleration of the table, m/s²."""
 
 
 def advise_earthquakes(
@@ -209,23 +190,20 @@ def _next_span(
 ) -> Advice:
     """Advise the next Span of a motion, by its recordings and what the model was given at the Spans so far."""
 
-    def outcome_at(span: float) -> Outcome:
+    spans, outcomes = _candidates(sorted(done), planned), []
+    for span in spans:
         nearest = min(done, key=lambda tested: abs(np.log(tested / span)))
         moved, inputs = done[nearest]
         scaled = Motion(moved.acceleration * (span / nearest), moved.dt)
-        peaks = plan_of(inputs, model, felt(inputs, scaled)).run().peak_ratio
-        return float((peaks > 0.0).mean()), float(np.isnan(peaks).mean()), scaled.peak
-
-    outcomes = _explored(outcome_at, _candidates(sorted(done), planned))
-    spans = sorted(outcomes)
-    rocking, overturning, peaks = (np.array(each) for each in zip(*(outcomes[span] for span in spans), strict=True))
+        largest = plan_of(inputs, model, felt(inputs, scaled)).run().peak_ratio
+        outcomes.append(((largest > 0.0).mean(), np.isnan(largest).mean(), scaled.peak))
+    rocking, overturning, peaks = np.transpose(outcomes)
     advised = advise_span(spans, rocking, overturning, largest_risk=campaign.next.largest_risk)
     demand = {"acceleration": float(peaks[spans.index(advised.span)])}
-    again = " again" if advised.span in done else ""
     return Advice(
         specimen=specimen,
         kind="earthquake",
-        test=f"{name}, Span {number(advised.span)}{again}",
+        test=f"{name}, Span {number(advised.span)}",
         is_enough=advised.is_enough,
         reason=_reason(advised, model),
         risk=advised.probabilities[-1],
@@ -243,18 +221,6 @@ def _reason(advised: SpanAdvice, model: str) -> str:
     if advised.is_step:
         return f"{said}: a step of at most {format_percent(STEP - 1)} up, as it stands at all Spans so far"
     return f"{said}: the least certain outcome"
-
-
-def _explored(outcome_at: Callable[[float], Outcome], spans: list[float]) -> dict[float, Outcome]:
-    """Find the outcomes at some Spans, and closer where overturning begins."""
-    found = {span: outcome_at(span) for span in spans}
-    for _ in range(CLOSER):
-        above = min((span for span, outcome in found.items() if outcome[1] >= 0.5), default=None)
-        below = max((span for span in found if above is not None and span < above), default=None)
-        if above is None or below is None:
-            break
-        found[(above + below) / 2] = outcome_at((above + below) / 2)
-    return found
 
 
 def _candidates(done: list[float], planned: set[float]) -> list[float]:
