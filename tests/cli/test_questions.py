@@ -209,7 +209,7 @@ def test_a_column_without_a_campaign_is_answered_and_drawn(assessed, tmp_path, t
 
 def test_what_cannot_be_answered_says_why(assessed, colonnade, refused):
     told = colonnade("fragility", str(assessed), "--records", "nowhere")
-    assert (told.returncode, "nowhere" in told.stdout) == (1, True)
+    assert (told.returncode, "nowhere" in told.stderr) == (1, True)
     code, said = refused("fragility", str(assessed), "--measure", "pvg")
     assert (code, 'Did you mean "pgv"?' in said) == (2, True)
 

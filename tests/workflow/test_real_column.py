@@ -98,13 +98,13 @@ def refuse(campaign, options, words):
 @every(
     ("options", "words"),
     [
-        ({"width": "1 m", "height": "5 m"}, "--width: give its --shape too: prism, cylinder, cone"),
+        ({"width": "1 m", "height": "5 m"}, "The column is not known. Give --shape"),
         ({"shape": "prism", "width": "1", "height": "5 m"}, '--width: "1" has no unit'),
         ({"shape": "prism", "width": "1 m"}, "--height: It is missing"),
         ({"shape": "prism", "width": "1 m", "height": "5 m", "specimen": "prism"}, "Leave --specimen"),
         ({}, "The column is not known"),
-        ({"specimen": "prism"}, "there is no campaign here"),
-        ({"critical_angle": "0.2 rad", "p": "2 rad/s", "scale": 2.0}, "--scale is for a specimen"),
+        ({"specimen": "prism"}, "give CAMPAIGN and --specimen"),
+        ({"critical_angle": "0.2 rad", "p": "2 rad/s", "scale": 2.0}, "--scale and"),
         ({"critical_angle": "0.2 rad", "p": "2 rad/s", "restitution": "identified"}, "give CAMPAIGN and --specimen"),
         ({"critical_angle": "2 rad", "p": "2 rad/s"}, "The column cannot be"),
         ({"critical_angle": "0.2", "p": "2 rad/s"}, "--critical-angle: "),

@@ -13,7 +13,7 @@ from colonnade.assessment.cases import CaseOutcomes, Cases, joined, run_cases
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Assessment
 from colonnade.campaign.forms.assessed import AssessmentSummary
-from colonnade.errors import CampaignError, ColonnadeError, ReadError
+from colonnade.errors import CampaignError, ReadError
 from colonnade.readers.files import sha256_of
 from colonnade.readers.record_set import files_of
 from colonnade.store import files
@@ -81,10 +81,10 @@ def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], wh
     failed = walk.failed["assessment"]
     found = []
     for name, asked in chosen.items():
-        path, record = layout.stage(name, "assessment"), record_of_assessment(layout, name, asked, failed.get(name, ""))
+        record = record_of_assessment(layout, name, asked, failed.get(name, ""))
         assert record is not None  # it was made or it failed
-        is_done = record.status == "done"
-        found.append(Assessed(name, record, files.read(path) if is_done else None, path if is_done else None))
+        path = layout.stage(name, "assessment") if record.status == "done" else None
+        found.append(Assessed(name, record, None if path is None else files.read(path), path))
     return found
 
 
@@ -112,6 +112,8 @@ def assess(
         If an option or a name is not usable, or something is missing.
     StoreError
         As `assess_campaign`.
+    ReadError, StageError
+        If a question of one's own has no answer.
     """
     if campaign is not None and layout is not None and not given:
         return assess_campaign(campaign, layout, names, where)
@@ -137,12 +139,8 @@ def _assess_own(
     asked = _asked(written | {"specimen": name, "scale": found.inputs.scale}, given)
     inputs = AssessmentInputs(**dict(found.inputs), specimen=name, asked=asked)
     with tempfile.TemporaryDirectory(prefix="colonnade-") as blocks:
-        try:
-            run = partial(in_blocks, folder=Path(blocks), key="own", where=where)
-            result = _made(asked, inputs=inputs, specimen=found.pooled, run=run)
-        except ColonnadeError as error:
-            failed = AssessmentSummary(status="failed", reason=str(error), specimen=name, measure=asked.measure)
-            return Assessed(OWN, failed, None)
+        run = partial(in_blocks, folder=Path(blocks), key="own", where=where)
+        result = _made(asked, inputs=inputs, specimen=found.pooled, run=run)
     return Assessed(OWN, AssessmentSummary.model_validate_json(result.attrs["answer"]), result)
 
 

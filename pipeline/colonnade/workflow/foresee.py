@@ -27,7 +27,7 @@ from colonnade.store.results import WITHOUT_PREDICTION
 from colonnade.workflow.executors import Counted
 from colonnade.workflow.motions import AskedMotion, motion_asked_for
 from colonnade.workflow.pooling import expect_known, one_specimen, restitution_taken
-from colonnade.workflow.product import Catalogue, stored_attributes
+from colonnade.workflow.product import Catalogue
 from colonnade.workflow.raw_files import raw_files
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ SEED = 0
 """The same in all forecasts of a campaign: member k draws the same errors in each, as its tests share them."""
 
 LEAST_MEMBERS = 2
+"""Of a forecast, however few an ensemble has: their spread is what it says."""
 
 SPREAD = ("restitution", "restitution_freedom", "critical_angle", "p", "correlations")
 """Of an `Uncertainty`, what is known of the specimen."""
@@ -103,7 +104,7 @@ def foresee(
     StoreError
         If a file cannot be written.
     """
-    own = _test(campaign, asked.test)
+    own = None if asked.test is None else _test(campaign, asked.test)
     name = one_specimen(campaign, asked.specimen or (None if own is None else own.specimen))
     if own is not None and own.specimen != name:
         raise CampaignError(f"{own.id} is a test of {own.specimen}, not of {name}.")
@@ -118,15 +119,13 @@ def foresee(
     factors = {level: factor_of(level, base) for level in asked.levels}
     setup = own or base.test
     tilt = (campaign.setups[setup.setup].table_tilt or 0.0) if setup is not None else 0.0
-    if campaign.processing.predict.ensemble.members < LEAST_MEMBERS:
-        raise CampaignError(f"processing.predict.ensemble.members: a forecast needs at least {LEAST_MEMBERS} members.")
     models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
     if not models:
         raise CampaignError(
             "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
         )
     inputs, catalogue = inputs_of(campaign, layout, name, tilt), Catalogue(layout)
-    code, there, found = catalogue.code(MADE_BY), _raw_files(campaign, layout, catalogue, own), []
+    code, there, found = catalogue.code(MADE_BY), _raw_files(campaign, catalogue), []
     for number, (level, factor) in enumerate(factors.items(), 1):
         expect_none()
         moved = Motion(factor * base.motion.acceleration, base.motion.dt * time_scale)
@@ -193,9 +192,7 @@ def _time_scale(test: Test | None, recorded: Test | None) -> float:
     return wanted / own if wanted is not None and own is not None else 1.0
 
 
-def _test(campaign: Campaign, name: str | None) -> Test | None:
-    if name is None:
-        return None
+def _test(campaign: Campaign, name: str) -> Test:
     expect_known(campaign, "test", [name], " A test that has yet to be run is entered with planned = true.")
     test = campaign.tests[name]
     if test.kind in (*WITHOUT_PREDICTION, "free-vibration"):
@@ -234,15 +231,11 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
     )
 
 
-def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test | None) -> dict[str, str]:
-    """List the raw files that are there, and those that a stored result of the test was made from."""
+def _raw_files(campaign: Campaign, catalogue: Catalogue) -> dict[str, str]:
+    """List the raw files that are there, with their hashes."""
     found: dict[str, str] = {}
-    if test is not None:
-        stored = stored_attributes(layout.stage(test.id, "ingest"))
-        names, digests = (np.atleast_1d(stored.get(key, [])).tolist() for key in ("raw_files", "raw_sha256"))
-        found |= {name: digest for name, digest in zip(names, digests, strict=False) if digest}
-    for each in campaign.tests.values():
-        looked_at = raw_files(campaign, each, catalogue)
+    for test in campaign.tests.values():
+        looked_at = raw_files(campaign, test, catalogue)
         found |= {name: file.sha256 for name, file in looked_at.items() if file.sha256 is not None}
     return dict(sorted(found.items()))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -77,6 +76,7 @@ def motion_asked_for(
         If a file cannot be read.
     """
     from colonnade.readers.motion import read_motion
+    from colonnade.stages.parts.reference_motions import reference_files
 
     if campaign is not None and layout is not None and not reading:
         found = _strongest(campaign, layout, name) or _reference(campaign, name)
@@ -91,8 +91,8 @@ def motion_asked_for(
     if campaign is None:
         raise CampaignError(f"--motion {name}: there is no such file and no campaign.")
     raise CampaignError(
-        f'There is no motion "{name}".{nearest(name, sorted(set(_names(campaign))))} A test that recorded one, a '
-        "motion that tests name, a reference motion of [motions] or a file was expected."
+        f'There is no motion "{name}".{nearest(name, [*campaign.tests, *reference_files(campaign)])} A test that '
+        "recorded one, a motion that tests name, a reference motion of [motions] or a file was expected."
     )
 
 
@@ -134,11 +134,3 @@ def _reference(campaign: Campaign, name: str) -> AskedMotion | None:
         raise CampaignError(" ".join(map(str, refusals)))
     motion = Motion(series.acceleration, series.interval)
     return AskedMotion(name, "a reference motion, by its shape", motion, is_shape=True)
-
-
-def _names(campaign: Campaign) -> Iterator[str]:
-    from colonnade.stages.parts.reference_motions import reference_files
-
-    yield from campaign.tests
-    yield from reference_files(campaign)
-    yield from (test.motion for test in campaign.tests.values() if test.motion)

@@ -148,7 +148,7 @@ def find_column(
         )
     try:
         if campaign is None or layout is None or not needs_specimen(given):
-            inputs, pooled = _without_specimen(which, given, has_campaign=campaign is not None)
+            inputs, pooled = _without_specimen(which, given)
             return FoundColumn(None, inputs, pooled, which.scale, *real_column(inputs, pooled))
         name = one_specimen(campaign, which.specimen)
         inputs, pooled = _of_specimen(campaign, name, which, given, is_real), restitution_taken(campaign, layout, name)
@@ -173,22 +173,18 @@ def _of_specimen(campaign: Campaign, name: str, which: Which, given: Given, is_r
     )
 
 
-def _without_specimen(which: Which, given: Given, *, has_campaign: bool) -> tuple[ColumnInputs, xr.Dataset]:
+def _without_specimen(which: Which, given: Given) -> tuple[ColumnInputs, xr.Dataset]:
     from colonnade.stages.specimen import SpecimenInputs, taken
 
-    if which.specimen is not None:
+    if which.specimen is not None or which.scale not in (None, 1.0) or given.get("restitution") == IDENTIFIED:
         raise CampaignError(
-            f"--specimen {which.specimen}: there is no campaign here. Give CAMPAIGN, or --shape with the sizes."
+            "--specimen, --scale and --restitution identified are for a specimen: give CAMPAIGN and --specimen. Sizes, "
+            "or --critical-angle and --p, are of the real column."
         )
-    if which.scale not in (None, 1.0):
-        raise CampaignError("--scale is for a specimen. Sizes, or --critical-angle and --p, are of the real column.")
-    if given.get("restitution") == IDENTIFIED:
-        where = "name it with --specimen" if has_campaign else "give CAMPAIGN and --specimen"
-        raise CampaignError(f"--restitution identified: e is identified of a specimen; {where}.")
     prototype = _prototype({"restitution": RIGID_BODY}, given)
-    if given.keys() & set(SIZES):
+    if "shape" in given:
         block = _sized({key: given[key] for key in SIZES if key in given})
-    elif prototype.critical_angle is None or prototype.p is None:
+    elif given.keys() & set(SIZES) or prototype.critical_angle is None or prototype.p is None:
         raise CampaignError(
             'The column is not known. Give --shape prism --width "1 m" --height "5 m", or --critical-angle "0.2 rad" '
             'and --p "2 rad/s", or a CAMPAIGN with --specimen.'
@@ -202,8 +198,6 @@ def _without_specimen(which: Which, given: Given, *, has_campaign: bool) -> tupl
 
 def _sized(sizes: dict[str, Any]) -> Block:
     """Make the block of a shape and its sizes; neither its depth nor its mass changes how it rocks."""
-    if "shape" not in sizes:
-        raise CampaignError(f"--{next(iter(sizes)).replace('_', '-')}: give its --shape too: {', '.join(SIZED)}.")
     other = {"mass": "1 kg", "depth": "1 m"} if sizes["shape"] == "prism" else {"mass": "1 kg"}
     return checked(SIZED[sizes["shape"]], other | sizes).block(STANDARD_GRAVITY)
 

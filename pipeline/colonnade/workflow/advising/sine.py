@@ -148,6 +148,9 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
 STEP = 1.2
 """The largest Span that is advised, over the largest that was tested: models err, and a specimen may break."""
 
+STEPS = 5
+"""Spans that are looked at from the largest that was tested to the largest that is advised."""
+
 
 def advise_earthquakes(
     campaign: Campaign, layout: Layout, specimen: str, tests: Mapping[str, TestSummary]
@@ -224,7 +227,7 @@ def _reason(advised: SpanAdvice, model: str) -> str:
 
 
 def _candidates(done: list[float], planned: set[float]) -> list[float]:
-    """Give the Spans that are tested or planned, those halfway between tested ones, and one step beyond."""
+    """Give the Spans that are tested or planned, those halfway between tested ones, and steps beyond."""
     between = [(low + high) / 2 for low, high in pairwise(done)]
-    largest = done[-1] * STEP
-    return sorted({*done, *between, largest, *(span for span in planned if span < largest)})
+    beyond = np.linspace(done[-1], STEP * done[-1], STEPS).tolist()
+    return sorted({*done, *between, *beyond, *(span for span in planned if span < beyond[-1])})
