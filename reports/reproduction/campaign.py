@@ -17,6 +17,8 @@ from colonnade.laboratory import paper_programme, write_campaign
 from colonnade.laboratory.plan import Plan
 from colonnade.laboratory.programme import COLUMNS, LADDERS, LASTING, RAMP, sine
 from colonnade.store.files import write_text
+from colonnade.store.layout import Layout
+from colonnade.workflow.executors import Where
 from colonnade.workflow.maps import Wanted, make_maps
 from reproduction.printed import FREQUENCIES, SHOWN, SHOWN_FREQUENCY, TABLE_1
 
@@ -78,10 +80,8 @@ def perform(folder: Path, workers: int | None = None) -> Path:
         raise SystemExit(f"{path}: tests failed. Look at {folder / 'report' / 'index.html'}.")
     first, *_, last = frequency_ratios(len(FREQUENCIES)).tolist()
     points = (len(FREQUENCIES), MAP_POINTS)
-    for model in (ANALYTICAL, PLANE, NUMERICAL):
-        # One call a model: the width of a limit would else depend on all, and the next run make the map again.
-        asked = {"omega": (first, last), "amplitude": MAP_LEVELS, "points": points, "cycles": CYCLES, "ramp": MAP_RAMP}
-        wanted = Wanted(models=(model,), **asked)
-        with work_progress(f"Mapping by the {model} model") as progress:
-            make_maps(path, wanted, specimens=(SPECIMEN,), workers=workers, progress=progress)
+    asked = {"omega": (first, last), "amplitude": MAP_LEVELS, "points": points, "cycles": CYCLES, "ramp": MAP_RAMP}
+    wanted, campaign = Wanted(models=(ANALYTICAL, PLANE, NUMERICAL), **asked), load(path)
+    with work_progress("Mapping by all models") as progress:
+        make_maps(campaign, Layout(folder), wanted, (SPECIMEN,), Where(workers, progress=progress))
     return path

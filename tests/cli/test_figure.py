@@ -50,7 +50,7 @@ def test_the_list_has_every_figure(colonnade):
     ("arguments", "said"),
     [
         (("angel", "span-2.0"), 'Unknown figure "angel". Did you mean "angle"?'),
-        (("angle", "spam-2.0"), 'no test "spam-2.0" that "angle" could show. Did you mean "span-2.0"?'),
+        (("angle", "spam-2.0"), 'a test, and the campaign has no "spam-2.0". Name one. Did you mean "span-2.0"?'),
         (("angle",), "is a figure of a test. Name one."),
         (("impacts",), '"impacts" is a figure of a'),
         (("fitted", "span-2.0"), 'span-2.0: there is nothing to draw for "fitted". It needs a free vibration'),

@@ -2,6 +2,7 @@
 
 import pytest
 
+from colonnade.campaign import load
 from colonnade.errors import CampaignError
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps import Wanted, make_maps
@@ -21,22 +22,22 @@ def give(campaign):
 
 def test_a_restitution_is_needed(untouched):
     with pytest.raises(CampaignError, match="Run `colonnade identify` first"):
-        calibrate(untouched.folder)
+        calibrate(load(untouched.folder), untouched.layout)
 
 
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
     give(untouched)
-    (made,) = calibrate(untouched.folder, workers=1)
+    (made,) = calibrate(load(untouched.folder), untouched.layout)
     assert made["target"] == 0.93
     monkeypatch.setattr("colonnade.stages.contact.contact", None)
-    (again,) = calibrate(untouched.folder, workers=1)
+    (again,) = calibrate(load(untouched.folder), untouched.layout)
     assert (again["path"], again["restitution"]) == (made["path"], made["restitution"])
 
 
 def test_a_law_that_cannot_be_found_says_why(untouched):
     give(untouched)
     untouched.edit('step = "100 us"', 'step = "1 ms"')
-    (refused,) = calibrate(untouched.folder, workers=1)
+    (refused,) = calibrate(load(untouched.folder), untouched.layout)
     assert "Use a shorter step or a softer contact" in refused["reason"]
     assert (refused["restitution"], refused["source"], refused["step"], refused["path"]) == (None, "", None, None)
 
@@ -50,7 +51,7 @@ def summarised(small):
 
 
 def mapped(small):
-    (made,) = make_maps(small.folder, MAP, workers=1)
+    (made,) = make_maps(load(small.folder), small.layout, MAP)
     return made.restitution_source
 
 

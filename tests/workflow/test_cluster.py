@@ -10,9 +10,10 @@ from contextlib import contextmanager
 
 import pytest
 
+from colonnade.campaign import load
 from colonnade.errors import ColonnadeError
 from colonnade.store import files
-from colonnade.workflow.executors import spread
+from colonnade.workflow.executors import Where, spread
 from colonnade.workflow.maps import Wanted, make_maps
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
@@ -155,7 +156,7 @@ def test_a_map_made_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster, u
     wanted = Wanted(omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(5, 6), cycles=4.0)
     contents = []
     for options in ({"scheduler": cluster}, {"workers": 1}):
-        (made,) = make_maps(untouched.folder, wanted, **options)
+        (made,) = make_maps(load(untouched.folder), untouched.layout, wanted, where=Where(**options))
         contents.append(files.read(made.path).attrs["content"])
         made.path.unlink()
     assert contents[0] == contents[1]

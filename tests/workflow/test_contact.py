@@ -107,14 +107,14 @@ def test_members_on_contact_are_those_of_one_process_and_finished_ones_outlast_a
 def test_a_map_needs_the_law_and_then_is_made(in_space):
     wanted = Wanted(models=("contact",), omega=(2.0, 3.0), amplitude=(0.8, 6.0), points=(2, 3), cycles=2.0)
     with pytest.raises(CampaignError, match="Run `colonnade calibrate` first"):
-        make_maps(in_space.folder, wanted, workers=1)
-    calibrate(in_space.folder, workers=1)
-    (made,) = make_maps(in_space.folder, wanted, workers=1)
+        make_maps(load(in_space.folder), in_space.layout, wanted)
+    calibrate(load(in_space.folder), in_space.layout)
+    (made,) = make_maps(load(in_space.folder), in_space.layout, wanted)
     stored = files.read(made.path)
     assert stored["outcome"].to_numpy()[:, [0, -1]].tolist() == [[0, 2], [0, 2]]
     options = json.loads(stored.attrs["settings"])
     assert (options["model"], options["damping_fraction"], options["contact_step"]) == ("contact", 0.3, 3e-5)
-    assert not make_maps(in_space.folder, wanted, workers=1)[0].because
+    assert not make_maps(load(in_space.folder), in_space.layout, wanted)[0].because
 
 
 def test_a_map_of_several_bodies_is_made_by_the_contact_model_alone(in_space):
@@ -124,11 +124,11 @@ def test_a_map_of_several_bodies_is_made_by_the_contact_model_alone(in_space):
         'step = "30 us", penetration = 1e-6, damping_fraction = 0.3', "penetration = 1e-3, damping_fraction = 1"
     )
     wanted = Wanted(models=("contact",), omega=(2.0, 3.0), amplitude=(0.8, 8.0), points=(2, 2), cycles=1.0)
-    (made,) = make_maps(in_space.folder, wanted, specimens=["two"], workers=1)
+    (made,) = make_maps(load(in_space.folder), in_space.layout, wanted, ["two"])
     assert files.read(made.path)["outcome"].to_numpy()[:, 1].tolist() == [2, 2]
     nonlinear = Wanted(**(wanted.model_dump() | {"models": ("nonlinear",)}))
     with pytest.raises(CampaignError, match="do not rock as one block"):
-        make_maps(in_space.folder, nonlinear, specimens=["two"], workers=1)
+        make_maps(load(in_space.folder), in_space.layout, nonlinear, ["two"])
 
 
 def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one(in_space):
@@ -146,9 +146,9 @@ def test_no_question_about_a_block_is_answered_of_bodies_that_do_not_rock_as_one
     assert (taken.value, taken.method) == (None, None)
     assert taken.reason == "Its bodies do not rock as one block."
     with pytest.raises(CampaignError, match="two: the contact of several bodies is not calibrated"):
-        calibrate(in_space.folder, specimens=["two"])
+        calibrate(load(in_space.folder), in_space.layout, ["two"])
     few = Wanted(models=("linear",), omega=(2.0, 3.0), amplitude=(0.8, 2.0), points=(2, 2), cycles=1.0)
-    assert [made.specimen for made in make_maps(in_space.folder, few, workers=1)] == ["prism"]
+    assert [made.specimen for made in make_maps(load(in_space.folder), in_space.layout, few)] == ["prism"]
 
 
 SITE = """
@@ -214,16 +214,3 @@ def test_what_an_assessment_of_several_bodies_needs_is_said(in_space):
         with pytest.raises(CampaignError) as refused:
             load(in_space.folder)
         assert words in str(refused.value)
-
-
-def test_limits_beside_those_of_the_contact_model_are_found_alike(in_space):
-    calibrate(in_space.folder, workers=1)
-    plain = Wanted(models=("linear",), omega=(2.0, 3.0), amplitude=(0.8, 6.0), points=(2, 3), cycles=2.0)
-    (alone,) = make_maps(in_space.folder, plain, workers=1)
-    assert _width(alone) == 0.01
-    beside = make_maps(in_space.folder, Wanted(**(plain.model_dump() | {"models": ("linear", "contact")})), workers=1)
-    assert [_width(made) for made in beside] == [4 * 2.6, 4 * 2.6]
-
-
-def _width(made):
-    return json.loads(files.read(made.path).attrs["settings"])["width"]

@@ -8,6 +8,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.errors import CampaignError, StoreError
 from colonnade.report.addresses import state_script
+from colonnade.store.layout import Layout
 from colonnade.store.provenance import key_of, stamped
 from colonnade.workflow.documents import chosen, draw, write_bundle, write_pdf
 from every import every
@@ -20,9 +21,17 @@ def folder(undisturbed, tmp_path_factory):
     return shutil.copytree(undisturbed.folder, folder, ignore=shutil.ignore_patterns("raw"))
 
 
+def pdf_of(folder, **options):
+    return write_pdf(load(folder), Layout(load(folder).folder), **options)
+
+
+def bundle_of(folder, place):
+    return write_bundle(load(folder), Layout(folder), place / "all.zip")
+
+
 @pytest.fixture(scope="module")
 def pdf(folder):
-    return write_pdf(folder)
+    return pdf_of(folder)
 
 
 def test_the_pages_of_a_real_report_are_typeset(folder, pdf):
@@ -35,34 +44,34 @@ def test_it_is_typeset_again_if_a_page_changed_or_it_was_altered_and_bundled_if_
     folder, pdf, tmp_path
 ):
     before, whole = pdf.stat(), pdf.read_bytes()
-    write_pdf(folder)
+    pdf_of(folder)
     assert pdf.stat() == before
     pdf.write_bytes(whole[:1000] + whole[2000:])
-    assert write_pdf(folder).read_bytes() == whole
+    assert pdf_of(folder).read_bytes() == whole
     page = folder / "report" / "methods.html"
     text = page.read_text(encoding="utf-8")
     page.write_bytes(stamped(text.encode(), "abc", ".html"))
-    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+    with zipfile.ZipFile(bundle_of(folder, tmp_path)) as archive:
         assert "report/report.pdf" not in archive.namelist()
-    write_pdf(folder)
+    pdf_of(folder)
     assert pdf.stat().st_mtime_ns > before.st_mtime_ns
     page.write_text(text, encoding="utf-8")
 
 
 def test_one_without_its_appendix_takes_its_place_and_is_bundled(folder, pdf, tmp_path):
-    whole = write_pdf(folder).read_bytes()
-    assert len(write_pdf(folder, appendix=False).read_bytes()) < len(whole)
-    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+    whole = pdf_of(folder).read_bytes()
+    assert len(pdf_of(folder, appendix=False).read_bytes()) < len(whole)
+    with zipfile.ZipFile(bundle_of(folder, tmp_path)) as archive:
         assert "report/report.pdf" in archive.namelist()
-    assert write_pdf(folder).read_bytes() == whole
+    assert pdf_of(folder).read_bytes() == whole
 
 
 def test_the_bundle_holds_the_whole_report(folder, pdf, tmp_path):
-    write_pdf(folder)
+    pdf_of(folder)
     pages = {path for path in (folder / "report").rglob("*") if path.is_file()}
     foreign = folder / "report" / "tests" / "notes.html"
     foreign.write_text("put here by somebody", encoding="utf-8")
-    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+    with zipfile.ZipFile(bundle_of(folder, tmp_path)) as archive:
         names = set(archive.namelist())
     foreign.unlink()
     assert names == {path.relative_to(folder).as_posix() for path in pages}
@@ -73,12 +82,12 @@ def test_nobody_watches_a_bundle(folder, tmp_path):
     state = folder / "report" / "state.js"
     before = state.read_bytes()
     state.write_text(state_script(is_watched=True, written=1.7e9, shown="1", line="free-01: rocking"), encoding="utf-8")
-    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+    with zipfile.ZipFile(bundle_of(folder, tmp_path)) as archive:
         assert archive.read("report/state.js") == before
     state.write_bytes(before)
 
 
-@pytest.mark.parametrize("write", [write_pdf, lambda folder: write_bundle(folder, folder / "all.zip")])
+@pytest.mark.parametrize("write", [pdf_of, lambda folder: bundle_of(folder, folder)])
 def test_without_a_report_there_is_nothing_to_take_along(folder, tmp_path, write):
     shutil.copy(folder / "campaign.toml", tmp_path)
     with pytest.raises(StoreError, match="report not found"):

@@ -33,8 +33,12 @@ def asking(**changes):
     return Wanted(**(FEW.model_dump() | changes))
 
 
-def made(small, wanted=FEW, **options):
-    (only,) = make_maps(small.folder, wanted, **({"workers": 1} | options))
+def all_made(small, wanted, **where):
+    return make_maps(load(small.folder), small.layout, wanted, where=Where(workers=1, **where))
+
+
+def made(small, wanted=FEW, **where):
+    (only,) = all_made(small, wanted, **where)
     return only
 
 
@@ -100,7 +104,7 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
 )
 def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
     with pytest.raises(CampaignError, match=found):
-        make_maps(small.folder, wanted, specimens=specimens, workers=1)
+        make_maps(load(small.folder), small.layout, wanted, specimens)
 
 
 def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
@@ -110,9 +114,14 @@ def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
 
 MAP = """
 import sys
+from pathlib import Path
+from colonnade.campaign import load
+from colonnade.store.layout import Layout
+from colonnade.workflow.executors import Where
 from colonnade.workflow.maps import Wanted, make_maps
 wanted = Wanted(models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(60, 10), cycles=5.0)
-make_maps(sys.argv[1], wanted, workers=1, progress=lambda done, total: print(done, flush=True))
+where = Where(workers=1, progress=lambda done, total: print(done, flush=True))
+make_maps(load(Path(sys.argv[1])), Layout(Path(sys.argv[1])), wanted, where=where)
 """
 
 
@@ -138,7 +147,7 @@ WITH_RESPONSES = Wanted(
 
 def responses_made(small, **changes):
     """Give the map, and the responses."""
-    return make_maps(small.folder, Wanted(**(WITH_RESPONSES.model_dump() | changes)), workers=1)
+    return all_made(small, Wanted(**(WITH_RESPONSES.model_dump() | changes)))
 
 
 def test_they_are_those_of_the_library_and_made_once(small):
@@ -217,10 +226,10 @@ def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
     summary = with_sines(small, 2.0, 3.0)
     kept(small, summary)
     by_run = files.read(small.layout.stage("prism", "map", "linear"))
-    (made,) = make_maps(small.folder, LINEAR, workers=1)
+    (made,) = all_made(small, LINEAR)
     assert not made.because
     made.path.unlink()
-    (made,) = make_maps(small.folder, LINEAR, workers=1)
+    (made,) = all_made(small, LINEAR)
     assert made.because == "never run"
     by_command = files.read(made.path)
     assert by_command.attrs["content"] == by_run.attrs["content"]
@@ -230,7 +239,7 @@ def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
 
 def test_a_map_that_was_asked_for_stays_until_its_specimen_changes(small):
     summary = with_sines(small, 2.0, 3.0)
-    (made,) = make_maps(small.folder, RARE, workers=1)
+    (made,) = all_made(small, RARE)
     assert kept(small, summary)[0] == ("linear", "up-to-date", "")
     assert files.read(made.path).sizes["frequency_ratio"] == 3
     small.edit('height = "456 mm"', 'height = "460 mm"')

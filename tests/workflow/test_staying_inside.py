@@ -8,9 +8,11 @@ from hashlib import sha256
 
 import pytest
 
+from colonnade.campaign import load
 from colonnade.cli import invoke
 from colonnade.errors import CampaignError, StoreError
 from colonnade.laboratory import prism_programme, write_campaign
+from colonnade.store.layout import Layout
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps import Wanted, make_maps
 
@@ -61,8 +63,9 @@ def replace_by_link(path, target):
 def test_a_folder_of_results_that_is_a_link_is_refused_and_nothing_is_touched(small, elsewhere, place):
     replace_by_link(small.folder / place, elsewhere)
     before = state(elsewhere), small.files()
+    opened = load(small.folder), small.layout
     run = partial(small.run, until="report", start_from="ingest")
-    for work in (run, partial(make_maps, small.folder, Wanted()), partial(calibrate, small.folder)):
+    for work in (run, partial(make_maps, *opened, Wanted()), partial(calibrate, *opened)):
         with pytest.raises(StoreError, match=r"this is a link, to .*elsewhere.*--results"):
             work()
     assert (state(elsewhere), small.files()) == before
@@ -100,7 +103,7 @@ def test_results_may_lie_on_another_disk(untouched, undisturbed, tmp_path, capsy
     results = {name for name in undisturbed.files() if not name.startswith(("raw/", "campaign"))}
     assert written == results | {"processed/.lock", "processed/.campaign"}
     assert untouched.redone(results=other) == {}
-    (made,) = make_maps(untouched.folder, Wanted(points=(2, 3), cycles=2.0), results=other, workers=1)
+    (made,) = make_maps(load(untouched.folder), Layout(untouched.folder, other), Wanted(points=(2, 3), cycles=2.0))
     assert made.path.is_relative_to(other)
     for shown in ("tests", "specimens"):
         capsys.readouterr()

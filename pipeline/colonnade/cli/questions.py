@@ -247,7 +247,7 @@ def _show_assessed(assessed: Assessed) -> None:
 @options.scheduler_option
 @options.result_options
 def map_command(
-    campaign: Path, specimen: tuple[str, ...], asked: Wanted, results: Path | None, as_json: bool, **where: Any
+    campaign: Path, specimen: tuple[str, ...], asked: Wanted, results: Path | None, as_json: bool, **choices: Any
 ) -> None:
     """
     Compute stability maps over frequency and amplitude, with the measured points on them.
@@ -260,10 +260,11 @@ def map_command(
     Writes processed/maps/<SPECIMEN>-<MODEL>.nc, and one picture of the maps of all models; with --responses also
     <SPECIMEN>-<MODEL>-response.nc and its picture.
     """
+    from colonnade.workflow.executors import Where
     from colonnade.workflow.maps import make_maps
 
     with work_progress(f"Mapping by the {' and the '.join(asked.models)} model") as progress:
-        made = make_maps(campaign, asked, specimens=specimen, results=results, progress=progress, **where)
+        made = make_maps(*options.opened(campaign, results), asked, specimen, Where(progress=progress, **choices))
     if as_json:
         show_json(made)
         return
@@ -307,7 +308,7 @@ def calibrate(
     from colonnade.store.results import ResultId
     from colonnade.workflow.calibration import calibrate as calibrated
 
-    made = calibrated(campaign, specimens=specimen, workers=workers, results=results)
+    made = calibrated(*options.opened(campaign, results), specimen, workers)
     if as_json:
         show_json(made)
     for each in () if as_json else made:

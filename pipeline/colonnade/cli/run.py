@@ -118,11 +118,11 @@ def report(
 
     documents: dict[str, Callable[[], Path]] = {}
     if with_pdf:
-        documents["pdf"] = partial(write_pdf, campaign, appendix=appendix, results=results)
+        documents["pdf"] = partial(write_pdf, *options.opened(campaign, results), appendix=appendix)
     elif not appendix:
         raise click.UsageError("--no-appendix is about the PDF: add --pdf")
     if bundle is not None:
-        documents["bundle"] = partial(write_bundle, campaign, bundle, results=results)
+        documents["bundle"] = partial(write_bundle, *options.opened(campaign, results), bundle)
     return _run_and_show(campaign, documents, until="report", results=results, **choices)
 
 

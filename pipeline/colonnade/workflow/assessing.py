@@ -31,7 +31,8 @@ from colonnade.workflow.walk import walking
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.stages.assessment_plan import AssessmentInputs
+    from colonnade.readers.record_set import RecordSet
+    from colonnade.stages.assessment_plan import AssessmentInputs, Plan
 
 MADE_BY = ("colonnade.stages.assessment", "colonnade.workflow.assessing")
 """Modules whose code makes assessments; what they import counts too."""
@@ -183,15 +184,22 @@ def _digest(catalogue: Catalogue, path: Path) -> str | None:
 
 
 def _made(asked: Assessment, *, inputs: AssessmentInputs, specimen: xr.Dataset, run: Run) -> xr.Dataset:
+    from colonnade.stages.assessment import assessment
+
+    _, plan = planned(asked, inputs, specimen)
+    studies = enumerate(plan.studies.items())
+    return assessment(plan, {name: outcomes_of(study.cases, run, str(number)) for number, (name, study) in studies})
+
+
+def planned(asked: Assessment, inputs: AssessmentInputs, specimen: xr.Dataset) -> tuple[RecordSet, Plan]:
+    """Read the ground motions and the hazard of an assessment, and plan it."""
     from colonnade.readers.hazard import read_hazard
     from colonnade.readers.record_set import read_record_set
-    from colonnade.stages.assessment import assessment
     from colonnade.stages.assessment_plan import plan_assessment
 
     hazard = None if asked.hazard is None else read_hazard(asked.hazard, asked.measure)
-    plan = plan_assessment(specimen, read_record_set(asked.records), hazard, inputs)
-    studies = enumerate(plan.studies.items())
-    return assessment(plan, {name: outcomes_of(study.cases, run, str(number)) for number, (name, study) in studies})
+    records = read_record_set(asked.records)
+    return records, plan_assessment(specimen, records, hazard, inputs)
 
 
 def outcomes_of(cases: Cases, run: Run, part: str = "") -> CaseOutcomes:

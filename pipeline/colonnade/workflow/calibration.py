@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from colonnade.campaign import load
+from colonnade.campaign import Campaign
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
@@ -29,25 +29,20 @@ NUMBERS = {
 
 
 def calibrate(
-    campaign: Path | str,
-    *,
-    specimens: Sequence[str] = (),
-    workers: int | None = None,
-    results: Path | str | None = None,
+    campaign: Campaign, layout: Layout, specimens: Sequence[str] = (), workers: int | None = None
 ) -> list[dict[str, Any]]:
     """
     Find the contact damping with which each specimen rocks freely with its restitution, and show the law.
 
     Parameters
     ----------
-    campaign : Path or str
-        A campaign.toml or its folder; its free vibrations have been identified.
+    campaign : Campaign
+        Its free vibrations have been identified.
+    layout : Layout
     specimens : sequence of str, optional
         Ids; default all single blocks that are not only parts of an assembly.
     workers : int, optional
         Processes; default one a core.
-    results : Path or str, optional
-        Folder that holds `processed` and `report`; default that of the campaign file.
 
     Returns
     -------
@@ -58,27 +53,26 @@ def calibrate(
     Raises
     ------
     CampaignError
-        If the campaign file is not usable, or a specimen is not in it or not identified yet.
+        If a specimen is not in the campaign or not identified yet.
     StoreError
         If a run is in progress, or results cannot be written.
     """
-    loaded = load(Path(campaign))
-    expect_known(loaded, "specimen", specimens)
-    layout, blocks = Layout.of(loaded.path, results), {name: loaded.specimens[name] for name in loaded.of_interest}
+    expect_known(campaign, "specimen", specimens)
+    blocks = {name: campaign.specimens[name] for name in campaign.of_interest}
     chosen = list(specimens) or [name for name, each in blocks.items() if not each.is_assembly]
-    several = [name for name in chosen if loaded.specimens[name].is_assembly]
+    several = [name for name in chosen if campaign.specimens[name].is_assembly]
     if several or not chosen:
         raise CampaignError(
             f"{listed(several or list(blocks))}: the contact of several bodies is not calibrated. They have the law of "
             "the settings under processing.predict.contact."
         )
-    with walking(loaded, layout, Where(workers)) as walk:
+    with walking(campaign, layout, Where(workers)) as walk:
         for name in chosen:
-            if loaded.specimens[name].restitution is None and not layout.stage(name, "specimen").is_file():
+            if campaign.specimens[name].restitution is None and not layout.stage(name, "specimen").is_file():
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
         walk.pool()
         walk.calibrate(chosen)
-    mesh, failed = loaded.processing.predict.contact.mesh, walk.failed["specimen"]
+    mesh, failed = campaign.processing.predict.contact.mesh, walk.failed["specimen"]
     return [_law(name, mesh, layout.stage(name, "contact"), failed.get(name)) for name in chosen]
 
 

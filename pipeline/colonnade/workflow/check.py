@@ -12,6 +12,7 @@ from colonnade.errors import ReadError, StageError
 from colonnade.findings import Finding, at_stage, note, warning
 from colonnade.store.layout import Layout
 from colonnade.store.results import RUN_STAGES, models_of
+from colonnade.workflow.assessing import planned
 from colonnade.workflow.chain import WORKER_LOST, RunResult, StageRun
 from colonnade.workflow.executors import Counted, spread
 from colonnade.workflow.graph import Graph
@@ -107,14 +108,11 @@ def _begun(campaign: Campaign, test: Test, measured: xr.Dataset) -> Iterator[Fin
 
 def _records_checked(campaign: Campaign, layout: Layout, name: str, asked: Assessment) -> list[StageRun]:
     """Read the ground motions and the hazard of an assessment, and plan it; no history is run."""
-    from colonnade.readers.hazard import read_hazard
-    from colonnade.readers.record_set import read_record_set
-    from colonnade.stages.assessment_plan import AssessmentInputs, plan_assessment
+    from colonnade.stages.assessment_plan import AssessmentInputs
 
     try:
-        hazard = None if asked.hazard is None else read_hazard(asked.hazard, asked.measure)
-        records, inputs = read_record_set(asked.records), AssessmentInputs.of(campaign, asked)
-        plan_assessment(restitution_taken(campaign, layout, asked.specimen), records, hazard, inputs)
+        pooled = restitution_taken(campaign, layout, asked.specimen)
+        records, _ = planned(asked, AssessmentInputs.of(campaign, asked), pooled)
     except (ReadError, StageError) as error:
         return _found(name, [], str(error), "assessment")
     said = (f"{each} is left out: {reason.splitlines()[0]}" for each, reason in records.left_out.items())

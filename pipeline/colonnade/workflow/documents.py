@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from colonnade.campaign import Campaign, load
+from colonnade.campaign import Campaign
 from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.report import addresses
 from colonnade.report.addresses import UNWATCHED
@@ -29,18 +29,17 @@ SHOWN = ("photos/*.jpg", "setups/*.svg")
 """Files of the report that pages show."""
 
 
-def write_pdf(campaign: Path | str, *, appendix: bool = True, results: Path | str | None = None) -> Path:
+def write_pdf(campaign: Campaign, layout: Layout, *, appendix: bool = True) -> Path:
     """
     Typeset the report of a campaign as a PDF, unless it is there and shows the pages as they are.
 
     Parameters
     ----------
-    campaign : Path or str
-        A campaign.toml or its folder; its report is up to date.
+    campaign : Campaign
+        Its report is up to date.
+    layout : Layout
     appendix : bool, optional
         Whether each test has its pages, too.
-    results : Path or str, optional
-        Folder that holds `processed` and `report`; default that of the campaign file.
 
     Returns
     -------
@@ -48,43 +47,37 @@ def write_pdf(campaign: Path | str, *, appendix: bool = True, results: Path | st
 
     Raises
     ------
-    CampaignError
-        If the campaign file is not usable.
     StoreError
         If there is no report, another run is under way, or the PDF cannot be written.
     """
-    loaded = load(Path(campaign))
-    layout = Layout.of(loaded.path, results)
     with only_run(layout):
         catalogue = Catalogue(layout)
-        brought_up_to_date([_pdf(loaded, layout, _there(layout), catalogue, appendix)], catalogue)
+        brought_up_to_date([_pdf(campaign, layout, _there(layout), catalogue, appendix)], catalogue)
     return layout.pdf
 
 
-def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | str | None = None) -> Path:
+def write_bundle(campaign: Campaign, layout: Layout, target: Path) -> Path:
     """
-    Put the whole report of a campaign into one zip file; `campaign`, `results` and errors as for `write_pdf`.
+    Put the whole report of a campaign into one zip file; `campaign`, `layout` and errors as for `write_pdf`.
 
     A PDF of older pages is left out. The pages in it are those of a report that nobody watches.
 
     Parameters
     ----------
-    target : Path or str
+    target : Path
         The file, with the ending .zip; outside the report.
 
     Returns
     -------
     target : Path
     """
-    loaded = load(Path(campaign))
-    layout = Layout.of(loaded.path, results)
     with only_run(layout):
         folder, catalogue = _there(layout), Catalogue(layout)
-        own = _shown(loaded, folder)
-        if any(known(_pdf(loaded, layout, folder, catalogue, appendix), catalogue) for appendix in (True, False)):
+        own = _shown(campaign, folder)
+        if any(known(_pdf(campaign, layout, folder, catalogue, appendix), catalogue) for appendix in (True, False)):
             own.append(layout.pdf.name)
-        bundle.write_bundle(folder, Path(target), own=own, instead={STATE: UNWATCHED})
-    return Path(target)
+        bundle.write_bundle(folder, target, own=own, instead={STATE: UNWATCHED})
+    return target
 
 
 def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue, appendix: bool) -> Product:
@@ -151,9 +144,8 @@ def chosen(campaign: Campaign, name: str, subject: str | None) -> tuple[Entry, s
     hint = nearest(subject or "", [known for each in kinds for known in ids[each]])
     if not kinds:
         raise CampaignError(f'"{name}" is a figure of the whole campaign. Leave out "{subject}".')
-    if subject is None:
-        raise CampaignError(f'"{name}" is a figure of a {" or a ".join(kinds)}. Name one.{hint}')
-    raise CampaignError(f'The campaign has no {" or ".join(kinds)} "{subject}" that "{name}" could show.{hint}')
+    named = "" if subject is None else f', and the campaign has no "{subject}"'
+    raise CampaignError(f'"{name}" is a figure of a {" or a ".join(kinds)}{named}. Name one.{hint}')
 
 
 def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -> Picture | Movie:

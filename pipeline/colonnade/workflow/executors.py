@@ -264,13 +264,9 @@ def _on_cluster(scheduler: str) -> Iterator[Workers]:
         try:
             yield Workers(client.get_executor(pure=False), _Count(client, scheduler), _cancel)
         except distributed.KilledWorker as error:
-            raise _ended(
-                scheduler,
-                "its workers were stopped several times over the same work, most often because memory ran out",
-                "Give each worker more memory and run again.",
-            ) from error
+            raise _ended(scheduler, "its workers were stopped several times over the same work") from error
         except (CancelledError, distributed.CancelledError) as error:
-            raise _gone(scheduler) from error
+            raise _ended(scheduler) from error
 
 
 class _Count:
@@ -289,13 +285,12 @@ class _Count:
         try:
             there = self._client.ncores()
         except Exception as error:  # closed, cut off or late: whatever it is, nobody answers
-            raise _gone(self._scheduler) from error
+            raise _ended(self._scheduler) from error
         _expect_one_thread(there)
         if there:
             self._count, self._seen = len(there), now
         elif now - self._seen > _PATIENCE:
-            what = "all its workers ended before the work was done"
-            raise _ended(self._scheduler, what, "Start workers and run again.")
+            raise _ended(self._scheduler, "all its workers ended before the work was done")
         return self._count
 
 
@@ -306,16 +301,11 @@ def _cancel(pending: Iterable[Future[Any]]) -> None:
             future.cancel()
 
 
-def _gone(scheduler: str) -> ColonnadeError:
-    return _ended(
-        scheduler,
-        "the scheduler of the Dask cluster ended before the work was done",
-        "Its workers write nothing more. Start the cluster again and run again, or run without --scheduler.",
+def _ended(scheduler: str, what: str = "the scheduler of the Dask cluster ended before the work was done") -> Exception:
+    return WorkersEndedError(
+        f"{scheduler}: {what}. Finished results are kept, and nothing more is written. Start the cluster again, with "
+        "more memory for each worker if it ran out, and run again, or run without --scheduler."
     )
-
-
-def _ended(scheduler: str, what: str, remedy: str) -> ColonnadeError:
-    return WorkersEndedError(f"{scheduler}: {what}. Finished results are kept. {remedy}")
 
 
 def _expect_workers(client: Any, scheduler: str) -> None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import Field, RootModel
 
-from colonnade.campaign import Campaign, load
+from colonnade.campaign import Campaign
 from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.forms.summary import Summary
 from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
@@ -28,7 +28,7 @@ from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import as_dataset, as_map
 from colonnade.store.records.summary import map_points, read_summary
 from colonnade.store.results import ResultId, models_moving
-from colonnade.workflow.executors import Arrays, Counted, Run, Where, blocks_of
+from colonnade.workflow.executors import HERE, Arrays, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.pooling import expect_known, restitution_taken
 from colonnade.workflow.product import Product, stored_attributes
@@ -56,7 +56,7 @@ LOWEST_AMPLITUDE, USUAL_AMPLITUDE = 0.5, 8.0
 """Smallest A of a map, and the least value of its largest A: the upper limit is far above the tests."""
 
 LARGEST_AMPLITUDE_IN_SPACE = 3.5
-"""The same largest A if the contact model is among the models."""
+"""The same largest A of a map by the contact model."""
 
 _Cycles = Annotated[Number, Field(ge=0.0, le=MOST_CYCLES)]
 
@@ -82,15 +82,13 @@ class Wanted(Table):
     """Also compute the orders and amplitudes of the steady responses, with curves."""
 
     def text(self) -> str:
-        """Write what a map of one model is asked for with, as it is stored with the map; of others, those in space."""
-        in_space = tuple(name for name in self.models if MODELS[name].in_space)
-        return self.model_copy(update={"models": in_space}).model_dump_json(exclude={"responses"})
+        """Write what a map of one model is asked for with, as it is stored with the map."""
+        return self.model_dump_json(exclude={"models", "responses"})
 
     @classmethod
     def of(cls, text: str, model: str) -> Wanted:
         """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
-        asked = json.loads(text)
-        return cls(**asked | {"models": tuple(dict.fromkeys((model, *asked["models"])))})
+        return cls(models=(model,), **json.loads(text))
 
 
 class Measured(NamedTuple):
@@ -136,31 +134,19 @@ class MapMade:
 
 
 def make_maps(
-    campaign: Path | str,
-    wanted: Wanted,
-    *,
-    specimens: Sequence[str] = (),
-    workers: int | None = None,
-    scheduler: str | None = None,
-    results: Path | str | None = None,
-    progress: Counted = lambda done, total: None,
+    campaign: Campaign, layout: Layout, wanted: Wanted, specimens: Sequence[str] = (), where: Where = HERE
 ) -> list[MapMade]:
     """
     Make the stability maps of a campaign's specimens, with its measured points on them.
 
     Parameters
     ----------
-    campaign : Path or str
-        A campaign.toml or its folder.
+    campaign : Campaign
+    layout : Layout
     wanted : Wanted
     specimens : sequence of str, optional
         Ids; default those that the models move, but not those that are only parts of an assembly.
-    workers, scheduler : optional
-        As of `spread`.
-    results : Path or str, optional
-        Folder that holds `processed` and `report`; default that of the campaign file.
-    progress : callable, optional
-        Called with the number of blocks done, and their total.
+    where : Where, optional
 
     Returns
     -------
@@ -169,16 +155,14 @@ def make_maps(
     Raises
     ------
     CampaignError
-        If the campaign file, a specimen or a wanted value is not usable.
+        If a specimen or a wanted value is not usable.
     StoreError
         If a run is in progress, or results cannot be written.
     """
-    loaded = load(Path(campaign))
-    expect_known(loaded, "specimen", specimens)
-    layout, where = Layout.of(loaded.path, results), Where(workers, scheduler, progress)
-    with walking(loaded, layout, where) as walk:
-        usual = [name for name in loaded.of_interest if models_moving(loaded, name, wanted.models)]
-        named = specimens or usual or loaded.of_interest
+    expect_known(campaign, "specimen", specimens)
+    with walking(campaign, layout, where) as walk:
+        usual = [name for name in campaign.of_interest if models_moving(campaign, name, wanted.models)]
+        named = specimens or usual or campaign.of_interest
         return [made for specimen in named for made in _of_specimen(walk, specimen, wanted)]
 
 
@@ -274,17 +258,14 @@ def plan_of(
     omegas = wanted.omega or _around([point.frequency_ratio for point in measured.points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in measured.points), default=0.0)
     space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
-    in_space = [MODELS[name] for name in wanted.models if MODELS[name].in_space]
-    usual = LARGEST_AMPLITUDE_IN_SPACE if in_space else USUAL_AMPLITUDE
+    usual = USUAL_AMPLITUDE if space is None else LARGEST_AMPLITUDE_IN_SPACE
     amplitudes = wanted.amplitude or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
     grid = wanted.points or MODELS[model].map_points
     width, edge = WIDTH, EDGE
-    if in_space:
-        # A contact map runs its own points only: an interval narrower than four of them makes no limit, nor does it
-        # on the maps of other models in the same picture.
-        points_in_space = wanted.points or in_space[0].map_points
-        spacing = (amplitudes[1] - amplitudes[0]) / (points_in_space[1] - 1)
-        width, edge = STEPS_A_WIDTH * spacing, EDGE if space is None else spacing / 8
+    if space is not None:
+        # Only the points of the map itself are run: an interval narrower than four of them makes no limit.
+        spacing = (amplitudes[1] - amplitudes[0]) / (grid[1] - 1)
+        width, edge = STEPS_A_WIDTH * spacing, spacing / 8
     try:
         return MapPlan(
             campaign.block(specimen),
