@@ -21,9 +21,6 @@ NUMBERS = {
     "restitution": "contact_restitution",
     "velocity_ratio": "contact_velocity_ratio",
     "damping_fraction": "damping_fraction",
-    "effective_damping": "effective_damping",
-    "stiffness": "contact_stiffness",
-    "energy_residual": "energy_residual",
 }
 """Numbers of a law, and the variable of each in its result."""
 
@@ -47,8 +44,8 @@ def calibrate(
     Returns
     -------
     laws : list of dict
-        Of each specimen its id, the mesh, why the calibration failed or missed its target, the body, the source of the
-        model's e and `NUMBERS` (SI; None if it failed), and where the law is stored.
+        Of each specimen its id, the mesh, why the calibration failed or missed its target, the source of the model's e
+        and `NUMBERS` (SI; None if it failed), and where the law, with all else, is stored.
 
     Raises
     ------
@@ -77,10 +74,10 @@ def calibrate(
 
 
 def _law(specimen: str, mesh: object, path: Path, failure: str | None) -> dict[str, Any]:
-    found = {"specimen": specimen, "mesh": mesh, "reason": failure, "body": "", "source": "", "path": None}
+    found = {"specimen": specimen, "mesh": mesh, "reason": failure, "source": "", "path": None}
     if failure is not None:
         return found | dict.fromkeys(NUMBERS)
     law = files.read(path)
-    said = {"reason": " ".join(map(str, law.attrs["warnings"])), "body": str(law.attrs["body"]), "path": path}
+    said = {"reason": " ".join(map(str, law.attrs["warnings"])), "path": path}
     numbers = {name: float(law[variable]) for name, variable in NUMBERS.items()}
     return found | said | numbers | {"source": str(law.attrs["contact_restitution_source"])}

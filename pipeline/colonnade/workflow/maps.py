@@ -315,14 +315,14 @@ def _map(
     asked = {} if wanted.text() == Wanted().text() else {ASKED: wanted.text()}
     work = partial(_in_blocks, _columns, _chart, plan, {"restitution_source": measured.source, **asked})
     options = Options(plan.options)
-    return plan, graph.product(ResultId(specimen, "map", model), options, given(plan), work, *MADE_BY, where=where)
+    return plan, graph.product(ResultId(specimen, "map", model), options, _given(plan), work, *MADE_BY, where=where)
 
 
 def _responses(graph: Graph, specimen: str, plan: MapPlan, source: str, where: Where) -> Product:
     """Plan steady responses: of the plan, its block, axes, model, restitution and sine, with `SETTLING` cycles."""
     work = partial(_in_blocks, _steady_columns, _steady, plan, {"restitution_source": source})
     result, options = ResultId(specimen, "responses", plan.model), Options(_settings(plan))
-    return graph.product(result, options, given(plan), work, *MADE_BY, where=where)
+    return graph.product(result, options, _given(plan), work, *MADE_BY, where=where)
 
 
 def _in_blocks(
@@ -341,7 +341,7 @@ def _in_blocks(
     return make(plan, joined).assign_attrs(attributes)
 
 
-def given(plan: MapPlan) -> dict[str, str | None]:
+def _given(plan: MapPlan) -> dict[str, str | None]:
     """Hash what a map is made from besides its options: block and axes."""
     axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
     return {"block": hash_of(repr(plan.block)), "axes": hash_of(axes)}
