@@ -11,6 +11,7 @@ import scipy
 from joblib import Parallel, delayed
 from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.figures.style import blank_figure, styled
 from colonnade.identification.forecasts import Forecast, base_rates, coverage, randomised_pit, score, skill
 from forecast_trial import FORECASTS, HEIGHTS, MODEL, PILOTS, RESTITUTION, SCATTER, WRONG, Campaign, run_campaign
@@ -135,11 +136,8 @@ def judge(campaigns: Sequence[Campaign]) -> dict[str, Any]:
     }
 
 
-def _plain(result: Any) -> dict[str, Any]:
-    return {
-        name: value.round(4).tolist() if isinstance(value, np.ndarray) else value
-        for name, value in vars(result).items()
-    }
+def _plain(result: dict[str, Array]) -> dict[str, Any]:
+    return {name: values.round(4).tolist() for name, values in result.items()}
 
 
 TEXT = """# Study of forecasts whose truth is known

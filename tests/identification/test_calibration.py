@@ -51,17 +51,17 @@ def test_the_same_seed_gives_the_same_values_and_further_tests_change_none():
 def test_bands_hold_their_share_of_tests_and_the_interval_is_the_binomial_one():
     forecasts, observed = drawn(np.random.default_rng(2))
     found = coverage(randomised_pit(forecasts, observed), forecasts, np.arange(TESTS))
-    assert found.band.tolist() == [0.5, 0.8, 0.95]
-    assert ((found.low <= found.share) & (found.share <= found.high)).all()
-    low, high = stats.binom.interval(0.95, TESTS, found.band)
-    assert found.low == pytest.approx(low / TESTS, abs=0.015)
-    assert found.high == pytest.approx(high / TESTS, abs=0.015)
+    assert found["band"].tolist() == [0.5, 0.8, 0.95]
+    assert ((found["low"] <= found["share"]) & (found["share"] <= found["high"])).all()
+    low, high = stats.binom.interval(0.95, TESTS, found["band"])
+    assert found["low"] == pytest.approx(low / TESTS, abs=0.015)
+    assert found["high"] == pytest.approx(high / TESTS, abs=0.015)
 
 
 def test_bands_of_forecasts_that_are_too_narrow_hold_too_few():
     forecasts, observed = drawn(np.random.default_rng(2), spread=2.0)
     found = coverage(randomised_pit(forecasts, observed), forecasts, np.arange(TESTS))
-    assert (found.share < found.low).all()
+    assert (found["share"] < found["low"]).all()
 
 
 def test_a_campaign_whose_tests_share_their_error_has_a_wider_interval():
@@ -70,5 +70,5 @@ def test_a_campaign_whose_tests_share_their_error_has_a_wider_interval():
     forecasts = [forecast(0.5 + 0.1 * stats.norm.ppf((np.arange(MEMBERS) + 0.5) / MEMBERS))] * 50
     shared = coverage(random.random(50), forecasts, np.zeros(50))
     alone = coverage(random.random(50), forecasts, np.arange(50))
-    assert (shared.low[0], shared.high[0]) == pytest.approx((0.0, 1.0), abs=0.2)
-    assert alone.high[0] - alone.low[0] < 0.35
+    assert (shared["low"][0], shared["high"][0]) == pytest.approx((0.0, 1.0), abs=0.2)
+    assert alone["high"][0] - alone["low"][0] < 0.35

@@ -252,26 +252,6 @@ BANDS = (0.5, 0.8, 0.95)
 """Central bands whose coverage is given."""
 
 
-@dataclass(frozen=True)
-class Coverage:
-    """
-    Share of the tests whose amplitude is in central bands of their forecasts.
-
-    Attributes
-    ----------
-    band : ndarray, shape (b,)
-        Nominal shares.
-    share : ndarray, shape (b,)
-    low, high : ndarray, shape (b,)
-        95 % of such shares if the forecasts are right.
-    """
-
-    band: Array
-    share: Array
-    low: Array
-    high: Array
-
-
 def randomised_pit(forecasts: Sequence[Forecast], observed: Sequence[Response], *, seed: int = 0) -> Array:
     """
     Give the probability integral transform of observed amplitudes, randomised at atoms.
@@ -302,7 +282,7 @@ def randomised_pit(forecasts: Sequence[Forecast], observed: Sequence[Response], 
     return np.array(found)
 
 
-def coverage(pit: Array, forecasts: Sequence[Forecast], campaigns: ArrayLike) -> Coverage:
+def coverage(pit: Array, forecasts: Sequence[Forecast], campaigns: ArrayLike) -> dict[str, Array]:
     """
     Count the tests whose amplitude is in central bands of their forecasts.
 
@@ -317,7 +297,8 @@ def coverage(pit: Array, forecasts: Sequence[Forecast], campaigns: ArrayLike) ->
 
     Returns
     -------
-    coverage : Coverage
+    coverage : dict of str to ndarray, shape (b,)
+        `band`, the nominal shares; `share`; `low` and `high`: 95 % of such shares if the forecasts are right.
     """
     random = np.random.default_rng((0, 1))
     names, place = np.unique(np.asarray(campaigns), return_inverse=True)
@@ -330,7 +311,7 @@ def coverage(pit: Array, forecasts: Sequence[Forecast], campaigns: ArrayLike) ->
         of_member = (below + random.random(members.size) * (most - below)) / members.size
         pits[:, test] = of_member[(drawn[:, test] * members.size).astype(np.intp)]
     low, high = np.quantile(_shares(pits), [0.025, 0.975], axis=0)
-    return Coverage(np.array(BANDS), _shares(pit[None])[0], low, high)
+    return {"band": np.array(BANDS), "share": _shares(pit[None])[0], "low": low, "high": high}
 
 
 def _shares(pit: Array) -> Array:

@@ -57,8 +57,9 @@ class Estimated:
 
     @cached_property
     def trend(self) -> tuple[float, float]:
-        """Change of ln e over the speeds of impact seen, and its error."""
-        return self.along(self.speeds)
+        """Change of ln e over the speeds of impact seen, that all else leaves, and its error."""
+        solved = self.model.with_direction(self.speeds).solved()
+        return float(solved.mean[-1]), float(np.sqrt(solved.covariance[-1, -1]))
 
     @property
     def has_trend(self) -> bool:
@@ -113,11 +114,6 @@ class Estimated:
     def tilt(self) -> tuple[float, float]:
         """Half the difference of ln α of the two sides beyond that of the block, and its error."""
         return float(self.answer.mean[TILT]), float(np.sqrt(self.answer.covariance[TILT, TILT]))
-
-    def along(self, direction: Array) -> tuple[float, float]:
-        """Change of ln e along a direction of the impacts, shape (m,), that all else leaves, and its error."""
-        solved = self.model.with_direction(direction).solved()
-        return float(solved.mean[-1]), float(np.sqrt(solved.covariance[-1, -1]))
 
 
 def estimate(path: Path, lowest: float, *, whole: bool) -> Estimated:

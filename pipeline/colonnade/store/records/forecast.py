@@ -130,8 +130,7 @@ def _skill(own: Array, reference: Array) -> ForecastScores:
 
 def _coverage(found: Scored) -> tuple[ForecastCoverage, ...]:
     bands = coverage(found.pit, found.forecasts, np.zeros(len(found.forecasts)))
-    columns = (bands.band, bands.share, bands.low, bands.high)
     return tuple(
         ForecastCoverage(**dict(zip(ForecastCoverage.model_fields, map(float, row), strict=True)))
-        for row in zip(*columns, strict=True)
+        for row in zip(*bands.values(), strict=True)
     )
