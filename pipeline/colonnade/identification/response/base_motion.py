@@ -114,7 +114,9 @@ def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
     if times.size < 16 or not np.any(values):
         return None
     interval = float(times[-1] - times[0]) / (times.size - 1)
-    frequency = _strongest_line(values - values.mean(), interval)
+    # The highest line of the spectrum; zero padding makes the lines four times as dense.
+    spectrum = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(values.size), 4 * values.size))
+    frequency = float((int(np.argmax(spectrum[1:])) + 1) / (4 * values.size * interval))
     steady = slice(0, 0)
     for _ in range(3):
         samples = round(1 / (frequency * interval))
@@ -127,14 +129,13 @@ def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
             return None
         phase = np.unwrap(np.angle(level[steady]))
         frequency += float(np.polyfit(times[steady] - times[steady.start], phase, 1)[0]) / (2 * np.pi)
-    return _fitted(times[steady], values[steady], frequency)
-
-
-def _strongest_line(values: Array, interval: float) -> float:
-    """Frequency of the highest line of the spectrum, Hz; zero padding makes the lines four times as dense."""
-    size = 4 * values.size
-    spectrum = np.abs(np.fft.rfft(values * np.hanning(values.size), size))
-    return float(max(int(np.argmax(spectrum[1:])) + 1, 1) / (size * interval))
+    times, values = times[steady], values[steady]
+    angle = 2 * np.pi * frequency * (times - times[0])
+    design = np.column_stack((np.ones_like(angle), np.sin(angle), np.cos(angle)))
+    coefficients, *_ = np.linalg.lstsq(design, values, rcond=None)
+    amplitude = float(np.hypot(coefficients[1], coefficients[2]))
+    distortion = float(np.sqrt(2 * np.mean((values - design @ coefficients) ** 2))) / amplitude
+    return Forcing(frequency, amplitude, float(times[0]), float(times[-1]), distortion)
 
 
 def _steady_part(level: Array, samples: int) -> slice:
@@ -150,13 +151,3 @@ def _steady_part(level: Array, samples: int) -> slice:
     # The level is an average over a period, and a ramp begins gently: half a period at either end is left out.
     start, stop = int(starts[longest]) + samples // 2, int(stops[longest]) - samples // 2
     return slice(start, stop) if stop - start > samples else slice(0, 0)
-
-
-def _fitted(time: Array, values: Array, frequency: float) -> Forcing:
-    angle = 2 * np.pi * frequency * (time - time[0])
-    design = np.column_stack((np.ones_like(angle), np.sin(angle), np.cos(angle)))
-    coefficients, *_ = np.linalg.lstsq(design, values, rcond=None)
-    amplitude = float(np.hypot(coefficients[1], coefficients[2]))
-    rest = values - design @ coefficients
-    distortion = float(np.sqrt(2 * np.mean(rest**2))) / amplitude
-    return Forcing(frequency, amplitude, float(time[0]), float(time[-1]), distortion)
