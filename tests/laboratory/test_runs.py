@@ -233,8 +233,8 @@ def test_several_processes_write_what_one_writes(tmp_path):
 
 
 def test_it_writes_after_a_run_has_left_its_processes_waiting(tmp_path):
-    spread = executors._Processes(2)  # of another kind than those of joblib.Parallel
-    assert list(spread.pool.map(abs, [-1, -2])) == [1, 2]
+    waiting = executors._processes(2)  # of another kind than those of joblib.Parallel
+    assert list(waiting.pool.map(abs, [-1, -2])) == [1, 2]
     write(statue_plan(), tmp_path, seed=1, workers=2)
 
 

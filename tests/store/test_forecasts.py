@@ -68,7 +68,7 @@ def test_what_was_changed_after_it_was_signed_is_altered(tmp_path, content, fore
     [
         ("schema", 2, "schema"),
         ("more", 1, "more"),
-        ("made", "2026-01-02T03:04:05", "time zone"),
+        ("made", "2026-01-02T03:04:05", "timezone"),
         ("models", {}, "models"),
         ("models linear peak_ratio", [0.1, 0.2, 0.3], "2 members"),
         ("models linear peak_ratio", [0.1, -0.2], "greater than"),

@@ -2,7 +2,7 @@
 
 import pytest
 
-from colonnade.campaign.syntax.fields import BETWEEN, CONVERSION, SCALE
+from colonnade.campaign.syntax.fields import BETWEEN, CONVERSION
 from colonnade.errors import CampaignError
 
 
@@ -25,7 +25,7 @@ SETTINGS |= {
 PLACES = {
     **{f"processing.{key} = {{}}\n\n[specimens]": ("[specimens]", both) for key, both in SETTINGS.items()},
     "mass = {}}}": (MASS, bounds("mass", "kg")),
-    MASS.replace("}", ", scale = {}}}"): (MASS, SCALE),
+    MASS.replace("}", ", scale = {}}}"): (MASS, [1.0, 999.0]),
     MASS.replace("}", ", restitution = {}}}"): (MASS, [5e-324, 1.0]),
     "gravity = {}\n\n[specimens]": ("[specimens]", bounds("acceleration", "m/s^2")),
     'unit = "mm", gain = {}, on': ('unit = "mm", on', [1e3 * CONVERSION[0], CONVERSION[1]]),

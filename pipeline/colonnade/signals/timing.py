@@ -76,8 +76,8 @@ def read_clock(stamps: Array) -> Clock:
 
     Examples
     --------
-    >>> read_clock(np.array([0.0, 0.1, 99.0, 0.3])).time.tolist()
-    [0.0, 0.1, nan, 0.3]
+    >>> read_clock(np.array([*range(6), 99.0, *range(7, 12)])).time[5:8].tolist()
+    [5.0, nan, 7.0]
     """
     if _is_exact(stamps):
         return Clock(stamps, float(np.diff(stamps).mean()), 0.0, is_exact=True)

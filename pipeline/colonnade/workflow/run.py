@@ -27,7 +27,7 @@ MOST_WORKERS = 10_000
 """Processes; no machine has as many cores."""
 
 
-@validate_call
+@validate_call(config={"strict": True})
 def run(
     campaign: Path | str,
     *,

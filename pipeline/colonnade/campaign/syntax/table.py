@@ -39,6 +39,8 @@ class Table(_Described):
             made = handler(data)
         except ValidationError as error:
             raise refuse(_explained(cls, data, error.errors())) from None
+        if data is made:  # it was checked when it was made, and a copy may lack what the file has to say
+            return made
         if wrong := [problem(message, *place) for place, message in made.contradictions()]:
             raise refuse(wrong)
         return made
