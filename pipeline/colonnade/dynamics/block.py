@@ -21,9 +21,6 @@ Sided = float | tuple[float, float]
 
 MOST_COLUMNS = 1000
 """Of a frame or a colonnade."""
-HOLLOW = 0.9
-"""Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
-
 LEAST, LARGEST = 1e-60, 1e60
 """Of a length, a mass or an inertia in SI: products of several stay in the range of floating-point numbers."""
 
@@ -254,8 +251,7 @@ class Block(Digested):
         """
         Rigid-body coefficient of restitution without bounce, e = 1 − (2 m R b / I₀) sin α (Housner 1963).
 
-        At least 0: where the formula is negative, as for a prism with sin² α > 2/3, the block stands after one impact.
-        The beam of a frame counts four times in m: see `frame`.
+        At least 0: where the formula is negative, the block stands after one impact. For a frame see `frame`.
         """
         side = self.governing
         lost = 2 * self._mass_at(2) * side.pole_distance * side.half_width / side.inertia * sin(side.critical_angle)
@@ -398,7 +394,7 @@ class Block(Digested):
         block = cls(mass, gravity, negative, positive)
         for side in block.sides:
             least = mass * side.pole_distance**2
-            if side.inertia < HOLLOW * least:
+            if side.inertia < 0.9 * least:  # no body has less, whatever the errors of measurement
                 raise ValueError(
                     f"inertia is {side.inertia:g} kg m² with a pole_distance of {side.pole_distance:g} m and a mass of "
                     f"{mass:g} kg; at least m R² = {least:.4g} kg m² was expected. Is the pole distance in m, and the "
@@ -432,14 +428,11 @@ class Block(Digested):
 
         Notes
         -----
-        A column that turns about an edge of its base carries the beam on the opposite edge of its top, 2 R from the
-        pole, and the beam, on equal columns, moves without turning. With γ its mass over that of all columns, and m,
-        R, I₀ of one, potential and kinetic energy of the frame over the number of columns are
-        (1 + 2γ) m g R cos(α − |θ|) and (I₀ + 4γ m R²) θ̇²/2: a block of the same α with
-        p̂ = p sqrt((1 + 2γ)/(1 + 4γ m R²/I₀)) (Makris and Vassiliou 2013). At an impact the poles change. About the new
-        one of a column the angular momentum of it and its share of the beam is kept:
-        (I₀ − 2 m R² sin²α + 4γ m R² cos 2α) ω before, (I₀ + 4γ m R²) ω after, so that
-        e = 1 − 2 (1 + 4γ) m R² sin²α/(I₀ + 4γ m R²).
+        A column that turns about an edge of its base carries the beam, which does not turn, on the opposite edge of its
+        top, 2 R from the pole. With γ its mass over that of all columns, and m, R, I₀ of one, the frame is a block of
+        the same α with p̂ = p sqrt((1 + 2γ)/(1 + 4γ m R²/I₀)) (Makris and Vassiliou 2013). At an impact the angular
+        momentum of a column and its share of the beam about the new pole is kept: (I₀ − 2 m R² sin²α + 4γ m R² cos 2α)ω
+        before, (I₀ + 4γ m R²) ω after, so that e = 1 − 2 (1 + 4γ) m R² sin²α/(I₀ + 4γ m R²).
 
         Examples
         --------

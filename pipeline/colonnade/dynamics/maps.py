@@ -88,11 +88,8 @@ class MapPlan:
         self.ramp = number("ramp", ramp, expected, low=0.0, high=MOST_CYCLES)
         self.phase = number("phase", phase, "a finite angle in rad") % (2 * pi)
         self.width, self.edge = checked_widths(width, edge, float(amplitudes[-1] - amplitudes[0]))
-
-    @property
-    def scan(self) -> Array:
-        """The A that every column runs: those of the map, and between them as many as make steps of width / 4."""
-        return scan_over(self.amplitude_ratio, self.width)
+        # The A that every column runs: those of the map, and between them as many as make steps of width / 4.
+        self.scan = scan_over(amplitudes, self.width)
 
     @property
     def options(self) -> dict[str, Any]:

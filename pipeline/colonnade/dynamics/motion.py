@@ -52,17 +52,14 @@ class Motion(Digested):
     ) -> None:
         self.dt = number("dt", dt, "a positive sampling interval in seconds, Motion(acceleration, dt),", above=0.0)
         self.acceleration = samples("acceleration", acceleration, each="sample")
-        self.vertical = None if vertical is None else self._other("vertical", vertical)
-        self.transverse = None if transverse is None else self._other("transverse", transverse)
-
-    def _other(self, name: str, values: ArrayLike) -> Array:
-        along = samples(name, values, each="sample")
-        if along.size != self.acceleration.size:
-            raise ValueError(
-                f"{name} has {along.size} samples; {self.acceleration.size} were expected, as many as the acceleration "
-                "along x"
-            )
-        return along
+        self.vertical = None if vertical is None else samples("vertical", vertical, each="sample")
+        self.transverse = None if transverse is None else samples("transverse", transverse, each="sample")
+        for name, along in (("vertical", self.vertical), ("transverse", self.transverse)):
+            if along is not None and along.size != self.acceleration.size:
+                raise ValueError(
+                    f"{name} has {along.size} samples; {self.acceleration.size} were expected, as many as the "
+                    "acceleration along x"
+                )
 
     def digest(self) -> dict[str, str]:
         """
