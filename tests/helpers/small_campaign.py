@@ -51,7 +51,7 @@ def _plan():
             release=1.0,
             table=table,
         )
-        for name, share, table in (("free-01", 0.5, still()), ("free-refused", 0.45, _shaking(0.6)))
+        for name, share, table in (("free-01", 0.5, still()), ("free-refused", 0.45, _shaking(0.15)))
     ]
     spans = [
         Trial(

@@ -42,6 +42,11 @@ LEAST_CHANGE, FEWEST_IMPACTS = 0.005, 5
 LARGEST_SCATTER, SURELY = 0.01, 0.99
 """Standard deviation of e from impact to impact above which, as sure as this, not impacts alone change the energy."""
 
+LEAST_FALL = 2.0
+"""Times by which the residual of a history falls with the base turned round, from which it is recorded so."""
+
+MOVING = "moving table"
+
 
 def find_beside(time: Array, measured: dict[str, Array], record: Record) -> Iterator[Departure]:
     """Look for departures in what was measured beside the angle, on a table at rest."""
@@ -130,6 +135,23 @@ def scatters(found: Estimated) -> bool:
     return bool(found.answer.weights[large].sum() > SURELY)
 
 
+def find_turned(turned: Estimated | None, *others: Estimated | None) -> Iterator[Departure]:
+    """Name a base whose acceleration explains the angle with its sign turned only: as recorded it would bend e."""
+    if turned is None:
+        return
+    residual, *rest = (float(each.path.power**0.5) for each in (turned, *others) if each is not None)
+    if rest and min(rest) < LEAST_FALL * residual:
+        return
+    otherwise = f"it is {1e3 * min(rest):.2g} mrad off" if rest else "no history follows it"
+    yield Departure(
+        MOVING, min(rest, default=0.0), residual, "rad",
+        f"With the sign of the table's acceleration turned, a history follows the angle to {1e3 * residual:.2g} mrad; "
+        f"as recorded, or with a table at rest, {otherwise}. Correct the `direction` of the accelerometer or of the "
+        "transducers, or the sign of a gain.",
+        refuses=True,
+    )  # fmt: skip
+
+
 def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
     """
     Look for departures in what a history says.
@@ -156,7 +178,7 @@ def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
             'table\'s acceleration (on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
         )
         yield Departure(
-            "moving table", scatter, scatter / (2 * e.size) ** 0.5, "1",
+            MOVING, scatter, scatter / (2 * e.size) ** 0.5, "1",
             f"e of single impacts scatters by {scatter:.3g}, from {e.min():.3f} to {e.max():.3f}; up to "
             f"{LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
             refuses=True,

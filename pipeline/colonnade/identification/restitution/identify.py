@@ -138,10 +138,13 @@ def identify_restitution(
     found, why = follow(record)
     driven, departing = False, list[Departure]()
     if base is not None:
-        recorded, why_not = follow(replace(record, samples=thinned(times, angles, block, base)))
+        (recorded, why_not), (turned, _) = (
+            follow(replace(record, samples=thinned(times, angles, block, sign * base))) for sign in (1.0, -1.0)
+        )
+        departing += departures.find_turned(turned, recorded, found)
         # An accelerometer may have more noise than a table at rest may move.
         better = found is None or (recorded is not None and recorded.path.power < found.path.power)
-        driven = better or (found is not None and departures.scatters(found))
+        driven = better or bool(departing) or (found is not None and departures.scatters(found))
         found, why = (recorded, why_not) if driven else (found, why)
     if not driven:
         record = record if found is None else replace(record, zero=found.zero)
@@ -149,7 +152,7 @@ def identify_restitution(
         if left_out := max((each.left_out for each in departing), default=0):
             record = replace(record, left_out=left_out)
             found, why = follow(record)
-    if found is not None:
+    if found is not None and not (driven and departing):
         departing += departures.find_within(found, driven=driven)
     moves = None if moves is None else driven
     return replace(_result(record, found, why, uncertainty, level, departing, driven=driven), table_moves=moves)
