@@ -267,6 +267,8 @@ class AssemblyHistory(Together, Digested):
     ('rocking', nan, True, ['low', 'high'])
     >>> history.outlines()["low"].shape == (history.time.size, 4, 2), round(history.horizon(history), 3)
     (True, 0.1)
+    >>> history.impact_times.size
+    0
     """
 
     assembly: Assembly
