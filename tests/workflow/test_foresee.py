@@ -73,6 +73,14 @@ def test_forecasts_never_replace_each_other(foreseen_copy):
     assert all(each.path.is_file() for each in (*first, *second))
 
 
+def test_a_raw_file_that_was_read_counts_as_there_although_it_is_deleted(foreseen_copy):
+    raw = foreseen_copy / f"raw/{TEST}.csv"
+    digest = hashlib.sha256(raw.read_bytes()).hexdigest()
+    raw.unlink()
+    (made,) = foreseen_of(foreseen_copy, motion=TEST, levels=("1x",), test=TEST)
+    assert made.forecast.raw_files[f"raw/{TEST}.csv"] == digest
+
+
 def test_a_file_counts_by_its_shape(foreseen_copy):
     motion = foreseen_copy / "pulse.txt"
     values = np.sin(np.arange(200) * 0.1)

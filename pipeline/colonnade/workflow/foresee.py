@@ -27,7 +27,7 @@ from colonnade.store.results import WITHOUT_PREDICTION
 from colonnade.workflow.executors import Counted
 from colonnade.workflow.motions import AskedMotion, motion_asked_for
 from colonnade.workflow.pooling import expect_known, one_specimen, restitution_taken
-from colonnade.workflow.product import Catalogue
+from colonnade.workflow.product import Catalogue, stored_attributes
 from colonnade.workflow.raw_files import raw_files
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def foresee(
             "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
         )
     inputs, catalogue = inputs_of(campaign, layout, name, tilt), Catalogue(layout)
-    code, there, found = catalogue.code(MADE_BY), _raw_files(campaign, catalogue), []
+    code, there, found = catalogue.code(MADE_BY), _raw_files(campaign, layout, catalogue, own), []
     for number, (level, factor) in enumerate(factors.items(), 1):
         expect_none()
         moved = Motion(factor * base.motion.acceleration, base.motion.dt * time_scale)
@@ -231,11 +231,15 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
     )
 
 
-def _raw_files(campaign: Campaign, catalogue: Catalogue) -> dict[str, str]:
-    """List the raw files that are there, with their hashes."""
+def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test | None) -> dict[str, str]:
+    """List the raw files that are there, and those that a stored result of the test was made from."""
     found: dict[str, str] = {}
-    for test in campaign.tests.values():
-        looked_at = raw_files(campaign, test, catalogue)
+    if test is not None:
+        stored = stored_attributes(layout.stage(test.id, "ingest"))
+        names, digests = (np.atleast_1d(stored.get(key, [])).tolist() for key in ("raw_files", "raw_sha256"))
+        found |= {name: digest for name, digest in zip(names, digests, strict=False) if digest}
+    for each in campaign.tests.values():
+        looked_at = raw_files(campaign, each, catalogue)
         found |= {name: file.sha256 for name, file in looked_at.items() if file.sha256 is not None}
     return dict(sorted(found.items()))
 
