@@ -207,7 +207,7 @@ def test_what_an_assessment_of_several_bodies_needs_is_said(in_space):
     plain = file.read_text(encoding="utf-8")
     for old, new, words in (
         ('levels = ["0.2 m/s", "3 m/s"]\n', "", "assessments.site.levels: It is missing"),
-        ('specimen = "two"\n', 'specimen = "prism"\n', "[prototype.prism] is missing"),
+        ('specimen = "two"\n', 'specimen = "prism"\n', "assessments.site.displaced: It is for several bodies"),
         ("[assessments.site]", "[prototype.two]\nrestitution = 0.9\n\n[assessments.site]", "Leave this table out"),
     ):
         file.write_text(plain.replace(channels, f"{SITE.replace(old, new)}{channels}", 1), encoding="utf-8")

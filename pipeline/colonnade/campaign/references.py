@@ -45,15 +45,25 @@ def dangling(campaign: CampaignFile) -> Problems:
 def _assessed(campaign: CampaignFile, name: str, assessment: Assessment) -> Problems:
     """Find what an assessment of one block needs, and one of several bodies."""
     specimen, place = assessment.specimen, ("assessments", name)
-    if not campaign.specimens[specimen].is_in_plane and assessment.levels is None:
+    if campaign.specimens[specimen].is_in_plane:
+        if specimen not in campaign.prototype:
+            yield (
+                (*place, "specimen"),
+                f"[prototype.{specimen}] is missing. It says what is assumed of the real column; its `restitution` at "
+                'least was expected: a number, "rigid-body", or "identified" to take that of the model.',
+            )
+        if assessment.displaced is not None:
+            yield (*place, "displaced"), f"It is for several bodies, and {specimen} rocks as one block. Leave it out."
+        return
+    if specimen in campaign.prototype:
+        yield (
+            ("prototype", specimen),
+            f"The bodies of {specimen} do not rock as one block, so that it has no e, α and p. Leave this table out; "
+            "friction and damping are those of [processing.predict.contact].",
+        )
+    if assessment.levels is None:
         message = f"It is missing. A history of the bodies of {specimen} takes minutes, so that none is run to find it."
         yield (*place, "levels"), message
-    if campaign.specimens[specimen].is_in_plane and specimen not in campaign.prototype:
-        yield (
-            (*place, "specimen"),
-            f"[prototype.{specimen}] is missing. It says what is assumed of the real column; its `restitution` at "
-            'least was expected: a number, "rigid-body", or "identified" to take that of the model.',
-        )
 
 
 def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False) -> Problems:
