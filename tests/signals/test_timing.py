@@ -67,6 +67,14 @@ def test_times_of_too_few_digits_for_their_length_are_not_read_as_an_even_clock(
     assert read_clock(np.floor(NUMBERS / 1000)).resolution == 0.0
 
 
+@every("wild", [1e4, -5.0])
+@every("count", [3, 40])
+def test_stamps_that_are_wild_in_a_row_cost_no_others(wild, count):
+    stamps = EVEN.copy()
+    stamps[2000 : 2000 + count] = wild
+    assert np.flatnonzero(~np.isfinite(read_clock(stamps).time)).tolist() == list(range(2000, 2000 + count))
+
+
 @given(place=st.integers(0, 3999), wild=st.sampled_from([1e6, -1e6, 4.0, 7.9]))
 def test_one_wild_time_stamp_costs_one_sample(place, wild):
     stamps = EVEN.copy()

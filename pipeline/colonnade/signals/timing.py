@@ -71,7 +71,7 @@ def read_clock(stamps: Array) -> Clock:
 
     Notes
     -----
-    Kept are stamps above all before, without single ones gone wild. A line through them over their sample numbers,
+    Kept are stamps in order, without single ones gone wild. A line through them over their sample numbers,
     with a step at each gap, replaces them where it meets all of them within their rounding.
 
     Examples
@@ -152,7 +152,11 @@ def _in_place(kept: NDArray[np.intp], times: Array, size: int) -> Array:
 
 
 def _in_order(stamps: Array, *, repeats: bool) -> NDArray[np.intp]:
-    """Indices of stamps above (or, with `repeats`, not below) all before, without single ones gone wild."""
+    """
+    Indices of stamps in order, without single ones gone wild; with `repeats` equal ones count as in order.
+
+    Those above all before or those below all after, whichever are more: a few that are too high spoil the first alone.
+    """
     finite = np.flatnonzero(np.isfinite(stamps))
     if finite.size > 8:
         times = stamps[finite]
@@ -161,8 +165,11 @@ def _in_order(stamps: Array, *, repeats: bool) -> NDArray[np.intp]:
         # A wild stamp at an end may be in order all the same, but is further off than all others reach.
         limit[[0, -1]] = np.where(steps[[0, -1]] < 0, limit[0], abs(times[-2] - times[1]))
         finite = finite[np.abs(times - scipy.ndimage.median_filter(times, 5, mode="mirror")) <= limit]
-    highest = np.maximum.accumulate(stamps[finite])
-    return finite[stamps[finite] == highest if repeats else np.diff(highest, prepend=-np.inf) > 0]
+    times = stamps[finite]
+    highest, lowest = np.maximum.accumulate(times), np.minimum.accumulate(times[::-1])[::-1]
+    above_all_before = times == highest if repeats else np.diff(highest, prepend=-np.inf) > 0
+    below_all_after = times == lowest if repeats else np.diff(lowest, append=np.inf) > 0
+    return finite[max(above_all_before, below_all_after, key=np.count_nonzero)]
 
 
 def _resolution(times: Array) -> float:
