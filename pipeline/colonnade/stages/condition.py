@@ -33,6 +33,9 @@ FEWEST_SAMPLES = 16
 HIGHEST_RATE = 5000.0
 """Hz, of the one clock of a test if no other is asked for: a hundred times what rocking needs."""
 
+MOST_SAMPLES = 20_000_000
+"""Of a test on its one clock, if fewer than half as many were recorded."""
+
 SENSES_GRAVITY = 7.0
 """m/s², that gravity's part along an accelerometer has to have before its value at rest is judged."""
 
@@ -235,6 +238,12 @@ def common_clock(
     # A rate that was recorded comes through its interval a little off.
     is_faster = leader.interval < 0.999 / HIGHEST_RATE
     interval = 1 / rate if not isinstance(rate, str) else 1 / HIGHEST_RATE if is_faster else leader.interval
+    samples, most = (stop - start) / interval, max(MOST_SAMPLES, 2 * leader.time.size)
+    if samples > most:
+        raise StageError(
+            f"At {1 / interval:.4g} Hz the {stop - start:.4g} s of this test are {samples:.3g} samples; at most "
+            f"{most:.3g} were expected. It was recorded at {1 / leader.interval:.4g} Hz: see `sampling_rate`."
+        )
     steps = np.ceil((start - leader.time[0]) / interval - 1e-6)
     clock = uniform_clock(leader.time[0] + steps * interval, stop, interval)
     if clock.size < FEWEST_SAMPLES:
