@@ -20,8 +20,8 @@ from colonnade.workflow.advising.next import advise_kind
 from colonnade.workflow.assessing import Where, assess_campaign
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.check import check
+from colonnade.workflow.graph import one_specimen, restitution_taken
 from colonnade.workflow.maps import Wanted, make_maps
-from colonnade.workflow.pooling import one_specimen, restitution_taken
 from prism import PRISM
 
 pytestmark = pytest.mark.whole

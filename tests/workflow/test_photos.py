@@ -7,7 +7,7 @@ from colonnade.campaign import load
 from colonnade.store.layout import Layout
 from colonnade.workflow import pages
 from colonnade.workflow.graph import Graph
-from colonnade.workflow.pages import photos_shown, unshown_photos
+from colonnade.workflow.pages import photos_shown
 from colonnade.workflow.product import Catalogue
 
 PLACE = b"48.8584 N 2.2945 E"
@@ -100,7 +100,6 @@ def test_a_photo_that_cannot_be_shown_is_a_warning_about_its_test(folder, tmp_pa
         assert list(copies) == ["free-01-2.jpg"]
         assert (found.kind, found.severity, found.about) == ("photo", "warning", "tests.free-01")
         assert told in found.text
-    assert list(unshown_photos(graph_of(folder, written, "photos/b.png").campaign)) == [found]
 
 
 def test_a_campaign_without_photos_is_as_it_was(folder):

@@ -64,7 +64,7 @@ class Toy:
     def bring(self, catalogue=None, *, inputs="a", upstream="b", code="c"):
         """Bring it up to date as a run does; give whether it was made, and what is kept."""
         catalogue, before = catalogue or Catalogue(self.layout), self.made
-        product = Product("toy 1", inputs, {"up": upstream}, code, self.make, (self.page, self.script), keeps=True)
+        product = Product("toy 1", inputs, {"up": upstream}, code, self.make, (self.page, self.script))
         made = brought_up_to_date([product], catalogue)["toy 1"]
         assert known(product, catalogue) == made or self.error is not None
         catalogue.save()

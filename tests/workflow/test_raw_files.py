@@ -10,9 +10,8 @@ import pytest
 from colonnade.campaign import load
 from colonnade.store import files
 from colonnade.workflow import graph
-from colonnade.workflow import raw_files as module
+from colonnade.workflow.graph import Graph, RawFile, copies
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.raw_files import RawFile, copies, raw_files
 from every import every
 from raw_files import Column, diadem
 
@@ -21,10 +20,10 @@ from raw_files import Column, diadem
 def seen(untouched, monkeypatch):
     """Looks at the raw file of one test with a catalogue, and which files were hashed."""
     campaign, hashed = load(untouched.folder), []
-    sha256_of = module.sha256_of
-    monkeypatch.setattr(module, "sha256_of", lambda path: hashed.append(path.name) or sha256_of(path))
+    sha256_of = graph.sha256_of
+    monkeypatch.setattr(graph, "sha256_of", lambda path: hashed.append(path.name) or sha256_of(path))
     untouched.layout.processed.mkdir(exist_ok=True)
-    return lambda catalogue: raw_files(campaign, campaign.tests["pulse-01"], catalogue), hashed
+    return lambda catalogue: Graph(campaign, untouched.layout, catalogue).raw(campaign.tests["pulse-01"]), hashed
 
 
 def test_a_file_is_hashed_once_until_its_size_time_or_place_changes(untouched, seen):

@@ -10,7 +10,7 @@ from colonnade.campaign.forms.summary import Summary
 from colonnade.store import files
 from colonnade.store.forecasts import Forecasts, Known
 from colonnade.workflow import run
-from colonnade.workflow.raw_files import RawFile
+from colonnade.workflow.graph import RawFile
 from colonnade.workflow.summary import choose, is_blind
 from foreseeing import LATER, TEST, foreseen_of
 

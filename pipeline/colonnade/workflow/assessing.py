@@ -21,8 +21,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.store.results import ResultId
 from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Run, Where, in_blocks
-from colonnade.workflow.graph import FORMATS, Graph
-from colonnade.workflow.pooling import expect_known
+from colonnade.workflow.graph import FORMATS, Graph, expect_known
 from colonnade.workflow.product import Catalogue, Product
 from colonnade.workflow.real_column import Given, checked, find_column
 from colonnade.workflow.summary import record_of_assessment

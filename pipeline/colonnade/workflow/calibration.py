@@ -12,7 +12,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.units.text import listed
 from colonnade.workflow.executors import Where
-from colonnade.workflow.pooling import expect_known
+from colonnade.workflow.graph import expect_known
 from colonnade.workflow.walk import walking
 
 NUMBERS = {

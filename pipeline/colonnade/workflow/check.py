@@ -15,11 +15,8 @@ from colonnade.store.results import RUN_STAGES, models_of
 from colonnade.workflow.assessing import planned
 from colonnade.workflow.chain import WORKER_LOST, RunResult, StageRun
 from colonnade.workflow.executors import Counted, spread
-from colonnade.workflow.graph import Graph
-from colonnade.workflow.pages import unshown_photos
-from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.graph import Graph, copies, restitution_taken
 from colonnade.workflow.product import Catalogue, Product
-from colonnade.workflow.raw_files import copies
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,7 +47,7 @@ def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> R
     layout, total = Layout.of(campaign.path, None), len(campaign.tests)
     graph = Graph(campaign, layout, Catalogue(layout))
     same = copies(campaign, {name: graph.raw(test) for name, test in campaign.tests.items()})
-    campaign = campaign.warned([*same, *unshown_photos(campaign)])
+    campaign = campaign.warned(same)
     found, waiting = dict[str, list[StageRun]](), []
     for name, test in campaign.tests.items():
         if reason := campaign.left_out(name):

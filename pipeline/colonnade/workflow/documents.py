@@ -15,8 +15,9 @@ from colonnade.report.test_page import facts
 from colonnade.store import bundle
 from colonnade.store.layout import STATE, Layout
 from colonnade.store.provenance import key_of
-from colonnade.workflow.lock import only_run
-from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date, known
+from colonnade.workflow.graph import Graph
+from colonnade.workflow.product import Contents, Product, brought_up_to_date, known
+from colonnade.workflow.walk import walking
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Movie, Picture
@@ -50,9 +51,9 @@ def write_pdf(campaign: Campaign, layout: Layout, *, appendix: bool = True) -> P
     StoreError
         If there is no report, another run is under way, or the PDF cannot be written.
     """
-    with only_run(layout):
-        catalogue = Catalogue(layout)
-        brought_up_to_date([_pdf(campaign, layout, _there(layout), catalogue, appendix)], catalogue)
+    folder = _there(layout)
+    with walking(campaign, layout) as walk:
+        brought_up_to_date([_pdf(walk.graph, folder, appendix)], walk.graph.catalogue)
     return layout.pdf
 
 
@@ -71,21 +72,22 @@ def write_bundle(campaign: Campaign, layout: Layout, target: Path) -> Path:
     -------
     target : Path
     """
-    with only_run(layout):
-        folder, catalogue = _there(layout), Catalogue(layout)
+    folder = _there(layout)
+    with walking(campaign, layout) as walk:
         own = _shown(campaign, folder)
-        if any(known(_pdf(campaign, layout, folder, catalogue, appendix), catalogue) for appendix in (True, False)):
+        if any(known(_pdf(walk.graph, folder, appendix), walk.graph.catalogue) for appendix in (True, False)):
             own.append(layout.pdf.name)
         bundle.write_bundle(folder, target, own=own, instead={STATE: UNWATCHED})
     return target
 
 
-def _pdf(campaign: Campaign, layout: Layout, folder: Path, catalogue: Catalogue, appendix: bool) -> Product:
+def _pdf(graph: Graph, folder: Path, appendix: bool) -> Product:
     """Give the PDF, made from the pages and their pictures as they are."""
+    campaign = graph.campaign
     upstream = {name: key_of(folder / name) for name in _shown(campaign, folder)}
     shown = json.dumps([campaign.title, campaign.campaign, facts.on_cover(campaign), appendix])
     make = partial(_typeset, campaign, folder, appendix)
-    return Product("pdf", shown, upstream, catalogue.code(MADE_BY), make, (layout.pdf,))
+    return Product("pdf", shown, upstream, graph.catalogue.code(MADE_BY), make, (graph.layout.pdf,))
 
 
 def _typeset(campaign: Campaign, folder: Path, appendix: bool) -> Contents:

@@ -39,11 +39,8 @@ Tell = Callable[[str], None]
 
 STOPPED = "A worker process was stopped by the system, most often because memory ran out"
 
-AHEAD = 2
-"""Items handed out to each worker, of which it works on the first; so few are lost if it is stopped."""
-
 LOOK = 1.0
-"""Seconds between two looks at the workers."""
+"""Seconds without a result after which the workers are looked at."""
 
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 """Environment of a worker: there are as many as cores."""
@@ -60,14 +57,14 @@ class Workers(NamedTuple):
     Attributes
     ----------
     pool : Executor
-    number : callable
-        Gives how many there are now; raises WorkersEndedError if nobody works any more.
+    look : callable
+        Raises WorkersEndedError if nobody works any more.
     stop : callable
         Ends calls that have not ended.
     """
 
     pool: Executor
-    number: Callable[[], int]
+    look: Callable[[], object]
     stop: Callable[[Iterable[Future[Any]]], object]
 
 
@@ -115,7 +112,7 @@ def spread(
     if scheduler is not None:
         if items:
             with _on_cluster(scheduler) as there:
-                yield from _handed_out(there, work, dict(enumerate(items)))
+                yield from _handed_out(there, partial(_as_here, work, package_hash()), dict(enumerate(items)))
         return
     import joblib
 
@@ -149,25 +146,22 @@ def spread(
 def _handed_out(
     workers: Workers, work: Callable[[Item], Result], items: Mapping[int, Item]
 ) -> Iterator[tuple[int, Result]]:
-    """Hand out a few items at a time, and give results as they end."""
-    waiting = iter(list(items.items()))
+    """Hand out all items, and give results as they end."""
     pending: dict[Future[Result], int] = {}
     ended: SimpleQueue[Future[Result]] = SimpleQueue()
     try:
-        while True:
+        with held_back():
+            for number, item in items.items():
+                handed = workers.pool.submit(work, item)
+                pending[handed] = number
+                handed.add_done_callback(ended.put)
+        while pending:
             expect_none()
-            most = AHEAD * workers.number()
-            with held_back():
-                while len(pending) < most and (given := next(waiting, None)) is not None:
-                    handed = workers.pool.submit(work, given[1])
-                    pending[handed] = given[0]
-                    handed.add_done_callback(ended.put)
-            if not pending:
-                return
             # `concurrent.futures.wait` would keep locks that the pool needs if Ctrl-C came as it takes them.
             try:
                 future = ended.get(timeout=LOOK)
             except Empty:
+                workers.look()
                 continue
             yield pending.pop(future), future.result()
     finally:
@@ -185,7 +179,7 @@ def _processes(count: int) -> Workers:
     with held_back():
         settled = {"initializer": _settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
         pool: Any = get_memmapping_executor(count, max_nbytes=None, **settled)
-    return Workers(pool, lambda: count, lambda pending: _stop(pool))
+    return Workers(pool, expect_none, lambda pending: _stop(pool))
 
 
 def _stop(pool: Any) -> None:
@@ -262,36 +256,28 @@ def _on_cluster(scheduler: str) -> Iterator[Workers]:
     with client:
         _expect_workers(client, scheduler)
         try:
-            yield Workers(client.get_executor(pure=False), _Count(client, scheduler), _cancel)
+            yield Workers(client.get_executor(pure=False), partial(_expect_workers, client, scheduler), _cancel)
+        except ImportError as error:
+            raise ColonnadeError(
+                f"{scheduler}: its workers cannot import colonnade ({error}). Install this version of colonnade, with "
+                "the same packages, where they run."
+            ) from error
         except distributed.KilledWorker as error:
             raise _ended(scheduler, "its workers were stopped several times over the same work") from error
         except (CancelledError, distributed.CancelledError) as error:
             raise _ended(scheduler) from error
 
 
-class _Count:
-    """Looks, once a second, how many workers a cluster has."""
-
-    def __init__(self, client: Any, scheduler: str) -> None:
-        self._client, self._scheduler = client, scheduler
-        self._count, self._looked, self._seen = 1, 0.0, time.monotonic()
-
-    def __call__(self) -> int:
-        """Refuse one with several threads; none may be there for a while, as workers come and go."""
-        now = time.monotonic()
-        if now - self._looked < LOOK:
-            return self._count
-        self._looked = now
-        try:
-            there = self._client.ncores()
-        except Exception as error:  # closed, cut off or late: whatever it is, nobody answers
-            raise _ended(self._scheduler) from error
-        _expect_one_thread(there)
-        if there:
-            self._count, self._seen = len(there), now
-        elif now - self._seen > _PATIENCE:
-            raise _ended(self._scheduler, "all its workers ended before the work was done")
-        return self._count
+def _expect_workers(client: Any, scheduler: str) -> None:
+    """Refuse a cluster without workers; none may be there for a while, as workers come and go."""
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except TimeoutError as error:
+        raise WorkersEndedError(
+            f"{scheduler}: this scheduler has no workers. Start some: dask worker {scheduler} --nthreads 1"
+        ) from error
+    except Exception as error:  # closed, cut off or late: whatever it is, nobody answers
+        raise _ended(scheduler) from error
 
 
 def _cancel(pending: Iterable[Future[Any]]) -> None:
@@ -308,37 +294,21 @@ def _ended(scheduler: str, what: str = "the scheduler of the Dask cluster ended 
     )
 
 
-def _expect_workers(client: Any, scheduler: str) -> None:
-    """Refuse workers with other sources than this process: results would differ."""
-    try:
-        client.wait_for_workers(1, timeout=_PATIENCE)
-    except TimeoutError as error:
+def _as_here(work: Callable[[Item], Result], code: str, item: Item) -> Result:
+    """Work in a worker of a cluster that does it as this process would: with its code, and in one thread."""
+    worker: Any = import_module("distributed").get_worker()
+    if package_hash() != code:
         raise ColonnadeError(
-            f"{scheduler}: this scheduler has no workers. Start some: dask worker {scheduler} --nthreads 1"
-        ) from error
-    _expect_one_thread(client.ncores())
-    try:
-        others = sorted(worker for worker, code in client.run(package_hash).items() if code != package_hash())
-    except Exception as error:
-        raise ColonnadeError(
-            f"{scheduler}: its workers cannot import colonnade ({type(error).__name__}: {error}). Install this version "
-            "of colonnade, with the same packages, where they run."
-        ) from error
-    if others:
-        raise ColonnadeError(
-            f"{scheduler}: {len(others)} of its workers run another version of colonnade, the first of them "
-            f"{others[0]}. Install the same one everywhere and restart the workers."
+            f"{worker.address}: this worker runs another version of colonnade. Install the same one everywhere and "
+            "restart the workers."
         )
-
-
-def _expect_one_thread(threads: dict[str, int]) -> None:
-    """Refuse a worker with several threads: netCDF's library does not support them."""
-    for worker, count in sorted(threads.items()):
-        if count != 1:
-            raise ColonnadeError(
-                f"{worker}: this worker has {count} threads. Workers with one thread were expected; start it again "
-                "with `dask worker --nthreads 1`, and several of them (`--nworkers`) for several cores."
-            )
+    if worker.state.nthreads != 1:  # netCDF's library does not support several
+        raise ColonnadeError(
+            f"{worker.address}: this worker has {worker.state.nthreads} threads. Workers with one thread were "
+            "expected; start it again with `dask worker --nthreads 1`, and several of them (`--nworkers`) for several "
+            "cores."
+        )
+    return work(item)
 
 
 Arrays = dict[str, NDArray[Any]]

@@ -25,10 +25,9 @@ from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
 from colonnade.workflow.executors import Counted
+from colonnade.workflow.graph import Graph, expect_known, one_specimen, restitution_taken
 from colonnade.workflow.motions import AskedMotion, motion_asked_for
-from colonnade.workflow.pooling import expect_known, one_specimen, restitution_taken
 from colonnade.workflow.product import Catalogue, stored_attributes
-from colonnade.workflow.raw_files import raw_files
 
 if TYPE_CHECKING:
     from colonnade.dynamics.ensemble import Ensemble
@@ -233,13 +232,13 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
 
 def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test | None) -> dict[str, str]:
     """List the raw files that are there, and those that a stored result of the test was made from."""
-    found: dict[str, str] = {}
+    graph, found = Graph(campaign, layout, catalogue), dict[str, str]()
     if test is not None:
         stored = stored_attributes(layout.stage(test.id, "ingest"))
         names, digests = (np.atleast_1d(stored.get(key, [])).tolist() for key in ("raw_files", "raw_sha256"))
         found |= {name: digest for name, digest in zip(names, digests, strict=False) if digest}
     for each in campaign.tests.values():
-        looked_at = raw_files(campaign, each, catalogue)
+        looked_at = graph.raw(each)
         found |= {name: file.sha256 for name, file in looked_at.items() if file.sha256 is not None}
     return dict(sorted(found.items()))
 

@@ -1,8 +1,12 @@
-"""The graph of results: what each result reads, and the function that makes it."""
+"""
+The graph of results: what each result reads, and the function that makes it, with the raw files at its beginning.
+
+Also what several questions ask of a campaign: that an id is in it, its one specimen, and the e of a specimen.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -10,13 +14,18 @@ from typing import TYPE_CHECKING, Any
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assembly import APART
 from colonnade.dynamics.models import MODELS
+from colonnade.errors import CampaignError, ReadError, StoreError, nearest
+from colonnade.findings import Finding, serious
+from colonnade.readers.files import sha256_of
+from colonnade.readers.registry import companions
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId, results_of
+from colonnade.units.text import listed
 from colonnade.workflow.executors import HERE, Arrays, Run, Where, blocks_of
-from colonnade.workflow.product import Catalogue, Product
-from colonnade.workflow.raw_files import RawFiles, expect_unchanged, raw_files
+from colonnade.workflow.product import Catalogue, Mark, Product, marks_of, read_done
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,6 +49,62 @@ _STORED_BY = ("colonnade.store.description", __name__)
 
 
 @dataclass(frozen=True)
+class RawFile:
+    """A raw file as it was hashed: its SHA-256, None if it could not be read, and its mark."""
+
+    sha256: str | None
+    mark: Mark = (0, 0, 0)
+
+
+RawFiles = Mapping[str, RawFile]
+"""Raw files by path within the campaign's folder."""
+
+
+def _companions(known_as: str | None, path: Path) -> list[str]:
+    try:
+        return [other.name for other in companions(path, known_as) if other.name]
+    except ReadError:  # reported when the file is read
+        return []
+
+
+def expect_unchanged(folder: Path, raw: RawFiles) -> None:
+    """
+    Check that raw files are still as they were hashed; a recorder may still be writing.
+
+    Raises
+    ------
+    StoreError
+        If one has changed.
+    """
+    there = marks_of(folder / name for name in raw)
+    for name, file in raw.items():
+        if file.sha256 is not None and there.get(folder / name) != file.mark:
+            raise StoreError(
+                f"{name}: this file changed while it was being read. Is the recorder still writing? Run again later."
+            )
+
+
+def copies(campaign: Campaign, raw: Mapping[str, RawFiles]) -> Iterator[Finding]:
+    """Say which tests are of one recording: of a file and its copy, or of one specimen and the same part of a file."""
+    found: dict[object, dict[str, str]] = {}
+    for test, files in raw.items():
+        window = campaign.review(test).within(campaign.tests[test].window)
+        for path, file in {} if campaign.left_out(test) else files.items():
+            if file.sha256 is not None and file.mark[0]:
+                found.setdefault((file.sha256, window), {})[test] = path
+    for tests in {tuple(tests): tests for tests in found.values()}.values():
+        paths = dict.fromkeys(tests.values())
+        if len(paths) > 1 or len({campaign.tests[test].specimen for test in tests}) < len(tests):
+            yield serious(
+                "copied file",
+                f"{listed(list(tests))} are one recording: {listed(list(paths))}. What "
+                "it shows, e too, counts several times. Was a folder copied and not yet filled with its own "
+                "recordings? Correct `file`, or give each test its `window` of the file; of two bodies on the table, "
+                "each is a specimen.",
+            )
+
+
+@dataclass(frozen=True)
 class Graph:
     """
     The results of a campaign, as products.
@@ -57,8 +122,22 @@ class Graph:
     catalogue: Catalogue
 
     def raw(self, test: Test) -> RawFiles:
-        """Hash the raw files of a test."""
-        return raw_files(self.campaign, test, self.catalogue)
+        """Hash the raw files of a test, and their companion files."""
+        found: dict[str, RawFile] = {}
+        for recorder, path in test.files.items():
+            known_as = self.campaign.setups[test.setup].recorders[recorder].file.format
+            is_there = self.hashed(path).sha256 is not None
+            named = self.catalogue.entry("raw", path, partial(_companions, known_as), known_as) if is_there else None
+            for name in (path.name, *(named[1] if named else ())):
+                each = path.with_name(name)
+                found[each.relative_to(self.campaign.folder).as_posix()] = self.hashed(each)
+        return found
+
+    def hashed(self, path: Path) -> RawFile:
+        """Hash a file, unless it is outside the campaign's folder: reading refuses it."""
+        is_inside = path.resolve().is_relative_to(self.campaign.folder)
+        entry = self.catalogue.entry("raw", path, sha256_of) if is_inside else None
+        return RawFile(entry[1], tuple(entry[0])) if entry else RawFile(None)
 
     def of_test(self, test: Test, where: Where = HERE) -> list[Product]:
         """Return the results of a test in their order; `where` members of the contact model's ensembles are run."""
@@ -204,3 +283,33 @@ def _compare(*, inputs: CompareInputs, rocking: xr.Dataset, **predicted: xr.Data
         stage, _, model = name.partition(" ")
         by_model[stage][model] = result
     return compare(rocking, inputs=inputs, **{COMPARED[stage]: each for stage, each in by_model.items()})
+
+
+def expect_known(campaign: Campaign, what: str, names: Iterable[str], more: str = "") -> None:
+    """Refuse ids of a test, a specimen or an assessment that a campaign does not have."""
+    known: Collection[str] = getattr(campaign, f"{what}s")
+    for name in names:
+        if name not in known:
+            raise CampaignError(f'{campaign.path.name} has no {what} "{name}".{nearest(name, known)}{more}')
+
+
+def one_specimen(campaign: Campaign, name: str | None) -> str:
+    """Give the specimen of this id or, without one, the only one of a campaign; it has to rock as one block."""
+    if name is None and len(campaign.of_interest) > 1:
+        listed = nearest("", campaign.of_interest)
+        raise CampaignError(f"The campaign has several specimens. Name one with --specimen ID.{listed}")
+    chosen = campaign.of_interest[0] if name is None else name
+    expect_known(campaign, "specimen", [chosen])
+    if not campaign.specimens[chosen].is_in_plane:
+        raise CampaignError(
+            f"{chosen}: {APART}, which the models in the plane move. "
+            "For several bodies: `colonnade map --model contact`, or [assessments.<name>] in the campaign file."
+        )
+    return chosen
+
+
+def restitution_taken(campaign: Campaign, layout: Layout, specimen: str) -> xr.Dataset:
+    """Give the e that predictions use (see `stages.specimen`), by the campaign as it is and what is stored."""
+    from colonnade.stages.specimen import SpecimenInputs, taken
+
+    return taken(read_done(layout.stage(specimen, "specimen")), SpecimenInputs.of(campaign, specimen))

@@ -29,8 +29,7 @@ from colonnade.store.records.stored import as_dataset, as_map
 from colonnade.store.records.summary import map_points, read_summary
 from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.executors import HERE, Arrays, Run, Where, blocks_of
-from colonnade.workflow.graph import Graph
-from colonnade.workflow.pooling import expect_known, restitution_taken
+from colonnade.workflow.graph import Graph, expect_known, restitution_taken
 from colonnade.workflow.product import Product, stored_attributes
 from colonnade.workflow.walk import Walk, walking
 

@@ -15,9 +15,7 @@ from colonnade.campaign.forms.foreseen import ForecastsSummary
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
-from colonnade.interruption import expect_none
-from colonnade.readers.files import sha256_of
-from colonnade.readers.photo import Pixels, read_photo
+from colonnade.readers.photo import read_photo
 from colonnade.report import addresses
 from colonnade.report.addresses import UNWATCHED
 from colonnade.report.asked import KIND, Asked, Photo, address_of, asked_of
@@ -107,8 +105,7 @@ class Report:
         for name, asked in self._asked.items():
             page, results = addresses.of_test(name), results_of(self.graph.campaign, self.graph.campaign.tests[name])
             make, places = partial(_page, self.graph.layout, asked), [page, addresses.of_data(page)]
-            product = self._product(f"page {name}", asked.shows, self._contents(results), make, places)
-            yield replace(product, keeps=True)
+            yield self._product(f"page {name}", asked.shows, self._contents(results), make, places)
 
     def _specimens(self) -> Iterator[Product]:
         """The page of each specimen."""
@@ -227,56 +224,32 @@ def photos_shown(graph: Graph) -> tuple[dict[str, list[Photo]], list[Finding]]:
         If a photo cannot be written.
     """
     source, folder, code = graph.campaign.folder, graph.layout.report.parent, graph.catalogue.code(PHOTOS_BY)
-    asked, products = list(_photos(graph.campaign)), []
-    for _, photo in asked:
-        is_inside = (source / photo.written).resolve().is_relative_to(source)  # else it is refused when it is read
-        found = graph.catalogue.entry("raw", source / photo.written, sha256_of) if is_inside else None
-        upstream, make = {photo.written: found[1] if found else None}, partial(_copied, source, photo.written)
-        products.append(Product(photo.address, "", upstream, code, make, (folder / photo.address,)))
-    made = brought_up_to_date(products, graph.catalogue)
-    photos: dict[str, list[Photo]] = {}
-    for test, photo in asked:
-        if not made[photo.address].reason:
-            photos.setdefault(test, []).append(photo)
-    shown = {folder / photo.address for each in photos.values() for photo in each}
+    photos, unshown, shown = dict[str, list[Photo]](), list[Finding](), set[Path]()
+    for name, test in graph.campaign.tests.items():
+        for number, written in enumerate(test.photos, start=1):
+            photo = Photo(address_of(name, number), f"Photo {number} of test {name}", written)
+            path, upstream = folder / photo.address, {written: graph.hashed(source / written).sha256}
+            product = Product(photo.address, "", upstream, code, partial(_copied, source, written), (path,))
+            if reason := brought_up_to_date([product], graph.catalogue)[photo.address].reason:
+                said = warning(KIND, f"tests[{name}].photos: {reason}")
+                unshown.append(replace(said, about=f"tests.{name}"))
+            else:
+                photos.setdefault(name, []).append(photo)
+                shown.add(path)
     for stale in set(folder.glob("photos/*.jpg")) - shown:
         files.remove(stale)
-    reasons = ((test, made[photo.address].reason) for test, photo in asked)
-    return photos, [_unshown(test, reason) for test, reason in reasons if reason]
-
-
-def unshown_photos(campaign: Campaign) -> Iterator[Finding]:
-    """Look at the photos of all tests, and give a warning of each that cannot be shown; nothing is written."""
-    for test, photo in _photos(campaign):
-        expect_none()
-        try:
-            _pixels(campaign.folder, photo.written)
-        except ReadError as error:
-            yield _unshown(test, str(error))
-
-
-def _photos(campaign: Campaign) -> Iterator[tuple[str, Photo]]:
-    for name, test in campaign.tests.items():
-        for number, written in enumerate(test.photos, start=1):
-            yield name, Photo(address_of(name, number), f"Photo {number} of test {name}", written)
-
-
-def _unshown(test: str, reason: str) -> Finding:
-    return replace(warning(KIND, f"tests[{test}].photos: {reason}"), about=f"tests.{test}")
-
-
-def _pixels(folder: Path, written: str) -> Pixels:
-    try:
-        inside(folder, written)
-    except ValueError as error:
-        raise ReadError(str(error)) from None
-    return read_photo(folder / written, within=folder)
+    return photos, unshown
 
 
 def _copied(folder: Path, written: str) -> Contents:
     """Read a photo, and write its pixels as JPEG with nothing else in it; the same pixels give the same bytes."""
     from PIL import Image
 
+    try:
+        inside(folder, written)
+    except ValueError as error:
+        raise ReadError(str(error)) from None
     copy = BytesIO()
-    Image.fromarray(_pixels(folder, written)).save(copy, "JPEG", quality=QUALITY, optimize=True)
+    pixels = read_photo(folder / written, within=folder)
+    Image.fromarray(pixels).save(copy, "JPEG", quality=QUALITY, optimize=True)
     return [copy.getvalue()], ""

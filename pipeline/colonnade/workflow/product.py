@@ -56,6 +56,14 @@ def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
     return marks
 
 
+class Made(NamedTuple):
+    """A product that is up to date: its key, the text that is kept of it, and why there is none of it."""
+
+    key: str
+    text: str
+    reason: str
+
+
 class Catalogue:
     """
     What the files of a campaign held when they were last opened, kept from run to run.
@@ -157,18 +165,18 @@ class Catalogue:
                 name = path.relative_to(self._layout.home).as_posix()
                 yield f"{name}: it was altered or damaged, so it is recomputed."
 
-    def kept(self, product: str, key: str) -> tuple[str, str] | None:
-        """Return the text that is kept of a product under this key, and why it could not be made; None without one."""
+    def kept(self, product: str, key: str) -> Made | None:
+        """Return what is kept of a product, if that is of this key."""
         name = f"kept {product}"
         known = self._seen.get(name) or self._known.get(name)
         if known is None or known[0] != key:
             return None
         self._seen[name] = known
-        return str(known[1]), str(known[2])
+        return Made(*known)
 
-    def keep(self, product: str, key: str, text: str, reason: str = "") -> None:
-        """Keep the text of a product for the next run, or why it could not be made."""
-        self._seen[f"kept {product}"] = [key, text, reason]
+    def keep(self, product: str, made: Made) -> None:
+        """Keep what was made of a product for the next run."""
+        self._seen[f"kept {product}"] = made
 
     def save(self) -> None:
         """Write what was looked at, and what is known from earlier runs."""
@@ -233,8 +241,6 @@ class Product:
         Of a result: takes the results of `upstream` by name, and returns an xr.Dataset. Of all else: gives `Contents`.
     paths : tuple of Path
         Its files: of a result one.
-    keeps : bool
-        Whether the catalogue keeps a text of it.
     where : Where or None
         Who works on its blocks: it is asked for in the process of the run, and `make` takes `run`, too.
     """
@@ -245,7 +251,6 @@ class Product:
     code: str
     make: Callable[..., Any]
     paths: tuple[Path, ...] = ()
-    keeps: bool = False
     where: Where | None = None
 
     @property
@@ -302,21 +307,13 @@ class Product:
         return f"{'raw file' if changed == 'upstream' and self.result.stage == 'ingest' else changed} changed"
 
 
-class Made(NamedTuple):
-    """A product that is up to date: its key, the text that is kept of it, and why there is none of it."""
-
-    key: str
-    text: str
-    reason: str
-
-
 def known(product: Product, catalogue: Catalogue) -> Made | None:
     """Return a product if it is up to date."""
     key = product.key
-    entry = catalogue.kept(str(product.id), key)
-    text, reason = entry or ("", "")
-    is_there = (entry is not None or not product.keeps) and all(catalogue.stamp(path) == key for path in product.paths)
-    return Made(key, text, reason) if reason or is_there else None
+    made = catalogue.kept(str(product.id), key)
+    if made is None or not (made.reason or all(catalogue.stamp(path) == key for path in product.paths)):
+        return None
+    return made
 
 
 def brought_up_to_date(
@@ -356,15 +353,15 @@ def brought_up_to_date(
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))
             catalogue.stamp(path)
+        made = found[str(product.id)] = Made(key, text, reason)
         if is_lasting:
-            catalogue.keep(str(product.id), key, text, reason)
-        found[str(product.id)] = Made(key, text, reason)
+            catalogue.keep(str(product.id), made)
     return found
 
 
 def _make(product: Product) -> tuple[Contents, str, bool]:
     """Make a product; a failure lasts unless the machine is at fault."""
     try:
-        return product.make(), "", product.keeps
+        return product.make(), "", True
     except ReadError as error:
         return ([], ""), str(error), not isinstance(error.__cause__, OSError)

@@ -21,7 +21,7 @@ from colonnade.errors import CampaignError
 from colonnade.stages.assessment_plan import ColumnInputs, real_column
 from colonnade.store.layout import Layout
 from colonnade.units.text import acceleration, quantity
-from colonnade.workflow.pooling import one_specimen, restitution_taken
+from colonnade.workflow.graph import one_specimen, restitution_taken
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,9 +17,8 @@ from colonnade.store.records.advice import Advice
 from colonnade.store.results import RUN_STAGES
 from colonnade.workflow.chain import RunResult, remove_results
 from colonnade.workflow.executors import Where
+from colonnade.workflow.graph import copies, expect_known
 from colonnade.workflow.pages import Report, photos_shown
-from colonnade.workflow.pooling import expect_known
-from colonnade.workflow.raw_files import copies
 from colonnade.workflow.summary import choose, finding_of, foreseen_of, write_summary
 from colonnade.workflow.walk import Progress, Walk, walking
 

@@ -29,10 +29,8 @@ from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import as_csv
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import results_of
-from colonnade.workflow.graph import Graph
-from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.graph import Graph, RawFiles, restitution_taken
 from colonnade.workflow.product import Contents, Product, brought_up_to_date, read_done, stored_attributes
-from colonnade.workflow.raw_files import RawFiles
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -116,7 +114,7 @@ def _of_specimen(graph: Graph, name: str) -> Product:
     entry = json.dumps([inputs, repr(campaign.specimens[name]), campaign.gravity])
     upstream = {"specimen": graph.catalogue.content(layout.stage(name, "specimen"))}
     make = partial(_specimen, campaign, layout, name)
-    return Product(f"specimen-record {name}", entry, upstream, graph.catalogue.code(MADE_BY), make, keeps=True)
+    return Product(f"specimen-record {name}", entry, upstream, graph.catalogue.code(MADE_BY), make)
 
 
 def _specimen(campaign: Campaign, layout: Layout, name: str) -> Contents:
@@ -130,7 +128,7 @@ def _of_test(graph: Graph, test: Test, is_outdated: bool, failure: str | None) -
     entry += [repr(campaign.concerning(test.id)), is_outdated, failure]
     upstream = {str(each): graph.catalogue.content(layout.path(each)) for each in results_of(campaign, test)}
     make = partial(_test, campaign, layout, test, is_outdated, failure)
-    return Product(f"record {test.id}", json.dumps(entry), upstream, graph.catalogue.code(MADE_BY), make, keeps=True)
+    return Product(f"record {test.id}", json.dumps(entry), upstream, graph.catalogue.code(MADE_BY), make)
 
 
 def _test(campaign: Campaign, layout: Layout, test: Test, is_outdated: bool, failure: str | None) -> Contents:

@@ -23,7 +23,7 @@ from colonnade.store.records.advice import Advice, ranked
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 from colonnade.units.text import format_uncertain, interval, number
 from colonnade.workflow.advising.sine import advise_earthquakes, advise_sines
-from colonnade.workflow.pooling import expect_known, restitution_taken
+from colonnade.workflow.graph import expect_known, restitution_taken
 from colonnade.workflow.product import Catalogue, Contents, Product, brought_up_to_date
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def advise(
         upstream = {"specimen": catalogue.content(layout.stage(specimen, "specimen"))}
         make = partial(_advised, campaign, layout, specimen, kind, tests)
         entry = json.dumps([*map(repr, read), own])
-        products.append(Product(f"advice {specimen} {kind}", entry, upstream, code, make, keeps=True))
+        products.append(Product(f"advice {specimen} {kind}", entry, upstream, code, make))
     made = brought_up_to_date(products, catalogue, workers=workers)
     return ranked(each for one in products for each in _ADVICE.validate_json(made[str(one.id)].text))
 

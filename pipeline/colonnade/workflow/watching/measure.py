@@ -19,8 +19,7 @@ from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.units.text import listed, number
 from colonnade.workflow.executors import Where
-from colonnade.workflow.graph import Graph
-from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.graph import Graph, restitution_taken
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk, walking
 
