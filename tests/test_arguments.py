@@ -101,8 +101,8 @@ ARGUMENTS = {
         "seed": "seed",
         "e": "restitution",
         "array": "correlations acceleration vertical transverse speeds values speed levels time "
-        "frequency_ratio amplitude_ratio displacements at direction period position",
-        "ranked": "angle base_acceleration out_of_plane slide",
+        "frequency_ratio amplitude_ratio at direction period position",
+        "ranked": "angle base_acceleration out_of_plane slide displacements",
         "object": "beam blocks bodies other block motion motions negative positive side uncertainty history",
         "object or none": "solid hazard contact",
         "name": "model pulse measure baseline unit layout until start_from scheduler",

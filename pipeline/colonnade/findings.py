@@ -11,8 +11,6 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
-from typing import Any
-
 from pydantic import TypeAdapter
 
 
@@ -26,10 +24,8 @@ class Severity(StrEnum):
     NOTE = "note"
     """Good to know; the results are valid."""
 
-    @property
-    def rank(self) -> int:
-        """Place in the order, 0 for the worst."""
-        return list(Severity).index(self)
+
+WORST_FIRST = tuple(Severity)
 
 
 @dataclass(frozen=True)
@@ -110,7 +106,7 @@ def in_order(findings: Iterable[Finding], known: Iterable[Finding] = ()) -> list
     first: dict[str, Finding] = {}
     for finding in findings:
         first.setdefault(finding.text, finding)
-    each = sorted(first.values(), key=lambda finding: finding.severity.rank)
+    each = sorted(first.values(), key=lambda finding: WORST_FIRST.index(finding.severity))
     others = [*each, *known]
     causes = [finding for finding in each if not _explained(finding, others)]
     return [(finding, False) for finding in causes] + [(finding, True) for finding in each if finding not in causes]
@@ -128,31 +124,22 @@ def at_stage(findings: Iterable[Finding], stage: str) -> list[Finding]:
     return [replace(each, stage=each.stage or stage) for each in findings]
 
 
-def as_record(finding: Finding) -> dict[str, Any]:
-    """Give a finding as JSON, without empty fields."""
-    return {name: value for name, value in asdict(finding).items() if value}
-
-
 def to_text(findings: Iterable[Finding]) -> str:
-    """Write findings as JSON text, as a result's file holds them."""
-    return json.dumps([as_record(each) for each in findings], ensure_ascii=False)
+    """Write findings as JSON text without empty fields, as a result's file holds them."""
+    records = [{name: value for name, value in asdict(each).items() if value} for each in findings]
+    return json.dumps(records, ensure_ascii=False)
 
 
 def from_text(text: str) -> list[Finding]:
     """
-    Read findings back; text in another form becomes a warning.
+    Read findings back.
 
     Examples
     --------
     >>> from_text(to_text([note("spikes", "Spikes on 2 samples.")])) == [note("spikes", "Spikes on 2 samples.")]
     True
-    >>> from_text('["cut off"]')[0].severity
-    <Severity.WARNING: 'warning'>
     """
-    try:
-        return _MANY.validate_json(text or "[]")
-    except ValueError:
-        return [Finding(text)]
+    return _MANY.validate_json(text or "[]")
 
 
 _MANY = TypeAdapter(list[Finding])

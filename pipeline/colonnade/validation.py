@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf, isfinite
+from math import inf, isfinite, nan
 from typing import Any, TypeVar
 
 import numpy as np
@@ -53,10 +53,9 @@ def number(
     26.1
     """
     plain = _plain(value)
-    if plain is not None and (isfinite(plain) or not finite):  # NaN is inside of nothing
-        is_above = low <= plain and (above == -inf or plain > above)
-        if is_above and plain <= high and (below == inf or plain < below):
-            return plain
+    is_inside = low <= plain <= high and (above == -inf or plain > above) and (below == inf or plain < below)
+    if is_inside and (isfinite(plain) or not finite):
+        return plain
     raise ValueError(f"{name} is {described(value)}; {expected} was expected")
 
 
@@ -69,13 +68,11 @@ def sided(name: str, value: Any, expected: str, **bounds: Any) -> tuple[float, f
     ValueError
         As `number`.
     """
-    if isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.shape == (2,)):
-        if len(value) != 2:
-            raise ValueError(f"{name} is {described(value)}; {expected}, or a pair of them, was expected")
-        negative, positive = (number(name, each, expected, **bounds) for each in value)
-        return negative, positive
-    both = number(name, value, expected, **bounds)
-    return both, both
+    pair = value if np.ndim(np.asarray(value, dtype=object)) else (value, value)
+    if len(pair) != 2:
+        raise ValueError(f"{name} is {described(value)}; {expected}, or a pair of them, was expected")
+    negative, positive = (number(name, each, expected, **bounds) for each in pair)
+    return negative, positive
 
 
 def whole(name: str, value: Any, low: int, high: int, expected: str = "") -> int:
@@ -100,7 +97,6 @@ def samples(
     *,
     dimensions: Sequence[int] = (1,),
     fewest: int = 1,
-    gaps: bool = False,
     finite: bool = True,
     each: str = "number",
 ) -> Array:
@@ -116,10 +112,8 @@ def samples(
         Numbers of dimensions that it may have.
     fewest : int, optional
         Values that it holds at least.
-    gaps : bool, optional
-        Whether NaN stands for a missing value.
     finite : bool, optional
-        Whether infinity is refused, and NaN without `gaps`.
+        Whether infinity and NaN are refused.
     each : str, optional
         What one value is, for the message.
 
@@ -134,26 +128,22 @@ def samples(
         If it is anything else; the message names the argument.
     """
     if np.ma.is_masked(values):
-        hint = "fill its gaps with NaN (values.filled(numpy.nan))" if gaps else "fill or cut the gap first"
-        raise ValueError(f"{name} is a masked array; a plain array was expected: {hint}")
+        raise ValueError(f"{name} is a masked array; a plain array was expected: fill or cut the gap first")
     try:
         array = np.asarray(values)
     except (ValueError, TypeError) as error:
         raise ValueError(f"{name} is not an array of numbers ({error}); one was expected") from None
     if array.dtype.kind not in "iuf":
-        held = "text" if array.dtype.kind in "SUT" else f"values of type {array.dtype}"
-        found = f"holds {held}" if array.ndim else f"is {described(values)}"
+        found = f"holds values of type {array.dtype.name}" if array.ndim else f"is {described(values)}"
         raise ValueError(f"{name} {found}; an array of real numbers was expected")
     if array.ndim not in dimensions or array.size < fewest:
         forms = " or ".join(f"a {number_of}-dimensional" for number_of in dimensions)
         least = f"at least one {each}" if fewest == 1 else f"at least {fewest} {each}s"
         raise ValueError(f"{name} has shape {array.shape}; {forms} array with {least} was expected")
     plain = np.asarray(array, dtype=np.float64, order="C")
-    wrong = np.isinf(plain) if gaps else ~np.isfinite(plain)
-    if finite and wrong.any():
-        place = int(np.argmax(wrong.ravel()))
-        advice = "a finite number, or NaN for a missing one, was expected" if gaps else "fill or cut the gap first"
-        raise ValueError(f"{name} is not finite at {each} {place}; {advice}")
+    if finite and not np.isfinite(plain).all():
+        place = int(np.argmin(np.isfinite(plain)))
+        raise ValueError(f"{name} is not finite at {each} {place}; fill or cut the gap first")
     return plain
 
 
@@ -188,9 +178,9 @@ def described(value: Any) -> str:
     return written if len(written) <= LONGEST_SHOWN and "\n" not in written else f"a {type(value).__name__}"
 
 
-def _plain(value: Any) -> float | None:
-    """One real number as float; None if it is anything else."""
+def _plain(value: Any) -> float:
+    """One real number as float; NaN, which is inside of nothing, if it is anything else."""
     if value is np.ma.masked or isinstance(value, (list, tuple)):
-        return None
+        return nan
     array = np.asarray(value)
-    return float(array) if array.ndim == 0 and array.dtype.kind in "iuf" else None
+    return float(array) if array.ndim == 0 and array.dtype.kind in "iuf" else nan

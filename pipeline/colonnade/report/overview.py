@@ -24,7 +24,7 @@ from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve, envelope
 from colonnade.figures.stored import record
 from colonnade.figures.stored.record import SpanPanel
-from colonnade.findings import Severity
+from colonnade.findings import WORST_FIRST, Severity
 from colonnade.identification.response.boundaries import Bracket, MapPoint, bracket_boundaries
 from colonnade.identification.response.rank import WITHIN, is_within
 from colonnade.store import files
@@ -334,7 +334,7 @@ def warning_groups(given: Iterable[tuple[str, Warned]]) -> list[WarningGroup]:
         group = groups.setdefault(key, WarningGroup(found, []))
         if subject not in group.subjects:
             group.subjects.append(subject)
-    return sorted(groups.values(), key=lambda group: (Severity(group.first.severity).rank, -len(group.subjects)))
+    return sorted(groups.values(), key=lambda group: (WORST_FIRST.index(group.first.severity), -len(group.subjects)))
 
 
 def ladder(tests: Sequence[TestRow]) -> dict[str, list[TestRow]]:

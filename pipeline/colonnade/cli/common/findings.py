@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from colonnade.cli.common.console import say, say_marked
 from colonnade.errors import count
-from colonnade.findings import Finding, Severity
+from colonnade.findings import WORST_FIRST, Finding, Severity
 from colonnade.units.text import listed
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def show_by_kind(findings: Findings) -> None:
     for subject, ordered in findings.items():
         for each, explained in ordered:
             groups.setdefault((explained, each.severity, each.kind), []).append((subject, each.text))
-    for explained, severity, kind in sorted(groups, key=lambda key: (key[0], key[1].rank)):
+    for explained, severity, kind in sorted(groups, key=lambda key: (key[0], WORST_FIRST.index(key[1]))):
         members = groups[explained, severity, kind]
         if explained:
             say(f"follows from the above: {kind}: {_named(members)}")

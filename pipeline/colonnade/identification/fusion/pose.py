@@ -92,7 +92,7 @@ def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike,
     Parameters
     ----------
     displacements : array_like, shape (m, n) or (n,)
-        Displacement of each material point along its direction, relative to the table, m; NaN where missing.
+        Displacement of each material point along its direction, relative to the table, m; missing where not finite.
     at : array_like, shape (m, 3) or (3,)
         The points, in the specimen frame at rest (origin at the centre of the base, z up), m.
     direction : array_like, shape (m, 3) or (3,)
@@ -123,7 +123,8 @@ def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike,
     >>> rocking_angle(readings, points, [[1, 0, 0], [1, 0, 0]], block).round(5).tolist()
     [0.0, 0.01]
     """
-    readings = np.atleast_2d(samples("displacements", displacements, dimensions=(1, 2), gaps=True))
+    readings = np.atleast_2d(samples("displacements", displacements, dimensions=(1, 2), finite=False))
+    readings = np.where(np.isfinite(readings), readings, np.nan)
     largest = float(np.nanmax(np.abs(readings), initial=0.0))
     if largest > LARGEST * instance("block", block, Block).pole_distance:
         raise ValueError(
