@@ -79,7 +79,7 @@ def problems(**keys):
         ({}, "unit", "It is missing"),
         ({"unit": "V"}, "unit", 'add a gain in "mm/V"'),
         ({"unit": "V", "gain": "0.5 g/V"}, "gain", 'is not a length. A gain in "mm per V" was expected'),
-        ({"unit": "V", "gain": "0 mm/V"}, "gain", "would erase the recording"),
+        ({"unit": "V", "gain": "0 mm/V"}, "gain", "It is 0 m. A value between"),
         ({"unit": "V", "gain": "1e400 mm/V"}, "gain", "too large"),
         ({"unit": "V", "gain": True}, "gain", "Text in quotes was expected: physical over recorded"),
         ({"unit": 3}, "unit", "Text in quotes was expected: unit of the values"),
@@ -91,9 +91,9 @@ def problems(**keys):
         (SPECIMEN | WIRE, "anchor", "needs its fixed end"),
         ({"unit": "mm", "normal": [1, 0, 0]}, "normal", 'needs sensing = "surface"'),
         ({"unit": "mm", "anchor": ["1 m", "0 m", "0 m"]}, "anchor", 'needs sensing = "wire"'),
-        (SPECIMEN | {"sensing": "surface", "normal": [0, 0, 1]}, "normal", "is at right angles to `direction`"),
-        (SPECIMEN | WIRE | {"anchor": ["43 mm", "0 mm", "1 m"]}, "anchor", "is at right angles to `direction`"),
-        (SPECIMEN | WIRE | {"anchor": ["43 mm", "0 mm", "440 mm"]}, "anchor", "is at right angles"),
+        (SPECIMEN | {"sensing": "surface", "normal": [0, 0, 1]}, "normal", "looks at right angles to `direction`"),
+        (SPECIMEN | WIRE | {"anchor": ["43 mm", "0 mm", "1 m"]}, "anchor", "looks at right angles to `direction`"),
+        (SPECIMEN | WIRE | {"anchor": ["43 mm", "0 mm", "440 mm"]}, "anchor", "looks at right angles"),
     ],
 )
 def test_a_channel_that_does_not_fit_together_is_told_at_its_key(keys, key, words):

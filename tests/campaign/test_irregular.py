@@ -42,7 +42,7 @@ def write(folder, tests="", rest=TEST):
 def test_a_campaign_file_a_review_and_a_test_log_that_are_pipes_are_told(tmp_path):
     os.mkfifo(tmp_path / "campaign.toml")
     for path in (tmp_path, tmp_path / "campaign.toml"):
-        with pytest.raises(CampaignError, match="this is a named pipe; a campaign file"):
+        with pytest.raises(CampaignError, match="this is a named pipe; a text file"):
             load(path)
     (tmp_path / "campaign.toml").unlink()
     for log in ("log.csv", "log.xlsx"):
@@ -56,8 +56,8 @@ def test_a_campaign_file_a_review_and_a_test_log_that_are_pipes_are_told(tmp_pat
 
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="there is no such device")
 def test_a_device_is_told():
-    for read in (load, draft):
-        with pytest.raises(CampaignError, match="this is a device"):
+    for read, told in ((load, "this is a device"), (draft, "no folder of this name")):
+        with pytest.raises(CampaignError, match=told):
             read(Path("/dev/zero"))
     with pytest.raises(ReadError, match="zero: this is a device; a raw file was expected"):
         colonnade.read_motion("/dev/zero", unit="g", dt=0.01)
@@ -82,7 +82,7 @@ def test_a_pipe_in_the_folder_of_a_draft_is_told(tmp_path):
     os.mkfifo(tmp_path / "a.csv")
     (tmp_path / "b.csv").write_text(RECORD)
     assert ("a.csv", "this is a named pipe; a raw file was expected.") in draft(tmp_path).refused
-    with pytest.raises(CampaignError, match="this is a named pipe"):
+    with pytest.raises(CampaignError, match="no folder of this name"):
         draft(tmp_path / "a.csv")
 
 

@@ -51,8 +51,7 @@ SPECIMENS = {"specimens": {"prism": specimen(), "Prism": specimen()}}
 SETUPS = {"setups": {name: {"channels": {"top": OTHER}} for name in ("frame", "FRAME")}}
 BOTH = {"file": {"main": "a.csv", "daq2": "b.csv"}}
 DID = "in this set-up. Did you mean"
-MAIN_TWICE = '"Main" is the recorder of the set-up\'s own `file`. Choose another id for an additional one.'
-CASE = "only in upper and lower case. Choose another."
+CASE = "is taken, and upper and lower case do not tell ids apart. Choose another."
 
 
 @every(
@@ -69,12 +68,13 @@ CASE = "only in upper and lower case. Choose another."
         (
             document(channels={"a.b": OTHER, "A_b": OTHER}),
             f"{FRAME}.channels.A_b",
-            "This id differs from \"a.b\" only in case or in '.', '-' and '_'. Choose another.",
+            "The id \"a.b\" is taken, and upper and lower case, '.', '-' and '_' do not tell ids apart. "
+            "Choose another.",
         ),
-        (document(recorders={"daq": {}, "DAQ": {}}), f"{FRAME}.recorders.DAQ", f'This id differs from "daq" {CASE}'),
-        (document(recorders={"Main": {}}), f"{FRAME}.recorders.Main", MAIN_TWICE),
-        (document() | SPECIMENS, "specimens.Prism", f'This id differs from "prism" {CASE}'),
-        (document() | SETUPS, "setups.FRAME", f'This id differs from "frame" {CASE}'),
+        (document(recorders={"daq": {}, "DAQ": {}}), f"{FRAME}.recorders.DAQ", f'The id "daq" {CASE}'),
+        (document(recorders={"Main": {}}), f"{FRAME}.recorders.Main", f'The id "main" {CASE}'),
+        (document() | SPECIMENS, "specimens.Prism", f'The id "prism" {CASE}'),
+        (document() | SETUPS, "setups.FRAME", f'The id "frame" {CASE}'),
     ],
 )
 def test_one_problem_is_told_at_its_place(written, place, told):
@@ -90,12 +90,7 @@ def test_equal_ids_of_tests_clash():
     (test,) = document()["tests"]
     tests = [test | {"id": name} for name in ("a", "b", "a", "A")]
     assert dangling(document() | {"tests": tests}) == [
-        (
-            ("tests", index, "id"),
-            f'"{name}": a test is called "a", and upper and lower case do not tell ids apart. '
-            "Give every test its own id.",
-        )
-        for index, name in ((2, "a"), (3, "A"))
+        (("tests", index, "id"), f'The id "a" {CASE}') for index in (2, 3)
     ]
 
 

@@ -81,7 +81,7 @@ def test_several_corrections_multiply_and_several_trims_leave_what_they_share(re
     [
         ('[[exclude]]\ntest = "free-1"', r'line 3: exclude\[1\]\.test: .*Did you mean "free-01"'),
         (CORRECT.format("tabel", 2), r'line 4: correct\[1\]\.channel: .*Unknown channel .* of free-01.*mean "table"'),
-        (CORRECT.format("top", 0), "[Aa] factor of zero"),
+        (CORRECT.format("top", 0), "To leave the channel out"),
         (TRIM.format('["5 s", "2 s"]'), "second has to be the larger"),
         ('[[flag]]\ntest = "free-01"\nchannel = "top"\nwindow = ["1 s", "2 s"]\nas = "bad"', '"suspect", "fail"'),
         ('[[trim]]\ntest = "free-01"', r"trim\[1\]\.window: It is missing"),

@@ -54,9 +54,9 @@ def test_a_clock_starts_with_the_main_one_or_is_linked_to_it(written, clock):
         ("Trigger", "", 'was found. Expected: "trigger" if it starts with the main recorder'),
         (3, "", 'was found. Expected: "trigger" if it starts with the main recorder'),
         ({}, ".align", "It is missing. Expected: a channel of the main recorder"),
-        ({"align": ["top"]}, ".align", "A list of 2 was expected: a channel of the main recorder"),
+        ({"align": ["top"]}, ".align", "A list of more values was expected: a channel of the main recorder"),
         ({"align": ["top", 2]}, ".align.1", "Text in quotes was expected"),
-        ({"align": "top"}, ".align", "A list of 2 was expected"),
+        ({"align": "top"}, ".align", "A list was expected"),
         ({"align": ["a", "b"], "by": 1}, ".by", "Unknown key."),
     ],
 )

@@ -42,7 +42,7 @@ def test_a_photo_is_listed_once_and_not_looked_for(made):
         ({"span": 0.0}, "span"),
         ({"file": "/etc/passwd"}, "/etc/passwd"),
         ({"file": "../elsewhere.csv"}, "elsewhere.csv"),
-        ({"file": {"daq2": "raw/b.csv"}}, "among them `main`"),
+        ({"file": {"daq2": "raw/b.csv"}}, "A file of `main` was expected"),
         ({"file": {"main": "raw/a.csv", "daq2": "../b.csv", "daq3": "../c.csv"}}, "daq3"),
         ({"photos": "photos/a.jpg"}, "A list was expected: photos of it"),
     ],

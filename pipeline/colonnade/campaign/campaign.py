@@ -27,9 +27,6 @@ from colonnade.findings import Finding
 Known = Annotated[Specimen, GetPydanticSchema(lambda _, handler: handler.generate_schema(AnySpecimen))]
 """A specimen as it is written; assemblies join them as wholes."""
 
-SCHEMA = 1
-"""Version of the contract of campaign.toml."""
-
 
 class CampaignKeys(Table):
     """The keys of a campaign file but its tests; all numbers in SI."""

@@ -38,15 +38,9 @@ def _quantity(text: str) -> str:
     return text
 
 
-def _gain(text: str) -> str:
-    if units.parse(text)[0] == 0.0:
-        raise ValueError(f"{fields.shown(text)} was found. A gain of zero would erase the recording.")
-    return _quantity(text)
-
-
 _QUANTITY_SCHEMA: dict[str, Any] = {"type": "string", "pattern": rf"^\s*{units.NUMBER_PATTERN}"}
 _GAIN_SCHEMA = {"anyOf": [_QUANTITY_SCHEMA | {"examples": ["10 mm/V"]}, {"type": "number"}]}
-Gain = Annotated[str, Field(coerce_numbers_to_str=True), AfterValidator(_gain), WithJsonSchema(_GAIN_SCHEMA)]
+Gain = Annotated[str, Field(coerce_numbers_to_str=True), AfterValidator(_quantity), WithJsonSchema(_GAIN_SCHEMA)]
 Unit = Annotated[str, AfterValidator(_unit), WithJsonSchema({"type": "string", "examples": ["V", "mm", "g"]})]
 QuantityText = Annotated[str, AfterValidator(_quantity), WithJsonSchema(_QUANTITY_SCHEMA)]
 
@@ -191,8 +185,7 @@ class Channel(RecordedAs):
             sees = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
         if sees is None or self.direction is None or abs(np.dot(sees, self.direction)) > LEAST_COSINE * hypot(*sees):
             return {}
-        seen = "The wire from `at` to it" if self.anchor is not None else "It"
-        told = f"{seen} is at right angles to `direction`, so that next to nothing is seen. Correct one of them."
+        told = "It looks at right angles to `direction`, so that next to nothing is seen. Correct one of them."
         return {"anchor" if self.anchor is not None else "normal": told}
 
     @property

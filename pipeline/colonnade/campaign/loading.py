@@ -14,7 +14,6 @@ from colonnade.campaign.syntax.document import Place, read, refusal, validated
 from colonnade.campaign.testlog import with_log
 from colonnade.errors import CampaignError
 from colonnade.findings import Finding
-from colonnade.readers.files import irregular
 
 FILE_NAME = "campaign.toml"
 
@@ -75,10 +74,8 @@ def _found(path: Path) -> Path:
         if path.is_dir():
             path = path / FILE_NAME
         path = path.parent.resolve() / path.name  # a campaign file that is a link belongs to the folder of the link
-        if path.is_file():
+        if path.exists():
             return path
-        if kind := irregular(path):
-            raise CampaignError(f"{path}: this is {kind}; a campaign file, or its folder, was expected.")
     except (OSError, RuntimeError, ValueError) as error:
         raise CampaignError(f"{path}: invalid path ({error}).") from None
     raise CampaignError(f"{path.name}: not found in {path.parent}. Name a {FILE_NAME} or its folder.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import hypot
 
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.specimen import Specimen
@@ -11,13 +12,10 @@ from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.findings import Finding, Severity, warning
 from colonnade.units.text import listed, number, quantity
 
-BRACKET = 0.25
-"""Of the specimen's largest size, by which a point may lie off it: transducers are fixed on brackets."""
-
 _USED = {"specimen": ("displacement", "angle", "angular_velocity"), "table": ("displacement", "acceleration")}
 
-FAR_OFF = 1.0
-"""Of that size; a point further away is not on a bracket."""
+FAR_OFF = 4.0
+"""Of the specimen's pole distance, about half its diagonal: a point further from its base is not on a bracket."""
 
 
 def notices(campaign: CampaignFile) -> Iterator[Finding]:
@@ -36,7 +34,7 @@ def notices(campaign: CampaignFile) -> Iterator[Finding]:
         for said in specimen.deviations(campaign.gravity):
             yield warning("specimen", f"specimens.{name}.{said}")
     for setup, name in dict.fromkeys((test.setup, test.specimen) for test in campaign.tests):
-        yield from _places(campaign, setup, name)
+        yield from _far_off(campaign, setup, name)
     if not (campaign.tests or campaign.assessments):
         yield warning("no test", "The campaign has no tests yet.")
 
@@ -58,25 +56,15 @@ def _density(name: str, specimen: Specimen) -> Iterator[Finding]:
     )
 
 
-def _places(campaign: CampaignFile, setup: str, name: str) -> Iterator[Finding]:
-    """Say which transducers of a set-up have a point that is off a specimen."""
-    specimen = campaign.specimens[name]
-    sizes, side = specimen.sizes(), specimen.block(STANDARD_GRAVITY).governing
-    # Of a measured specimen only the pole distance is known: it is as large as a prism that has it.
-    half_width = max((each for key, each in sizes.items() if key != "height"), default=2 * side.pole_distance) / 2
-    height = sizes.get("height", 2 * side.pole_distance)
-    largest = max(height, 2 * half_width)
+def _far_off(campaign: CampaignFile, setup: str, name: str) -> Iterator[Finding]:
+    """Say which transducers of a set-up have a point that cannot be on a specimen."""
+    reach = FAR_OFF * campaign.specimens[name].block(STANDARD_GRAVITY).pole_distance
     for channel_name, channel in campaign.setups[setup].channels_of(name).items():
-        if not channel.is_on_body or channel.at is None:
-            continue
-        x, y, z = channel.at
-        off = max(abs(x) - half_width, abs(y) - half_width, z - height, -z)
-        if off > BRACKET * largest:
+        if channel.is_on_body and channel.at is not None and hypot(*channel.at) > reach:
             yield Finding(
-                f"setups.{setup}.channels.{channel_name}.at is {quantity(off, 'mm', 4)} off {name}, which is "
-                f"{quantity(height, 'mm', 4)} high and {quantity(2 * half_width, 'mm', 4)} wide. Give a point on it, "
-                "measured from the centre of the base, and check the unit.",
+                f"setups.{setup}.channels.{channel_name}.at is {quantity(hypot(*channel.at), 'm', 4)} from the centre "
+                f"of the base of {name}, which is far off it. Give a point on it, and check the unit.",
                 "geometry",
-                Severity.SERIOUS if off > FAR_OFF * largest else Severity.WARNING,
+                Severity.SERIOUS,
                 about=f"setups.{setup}",
             )

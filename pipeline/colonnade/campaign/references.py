@@ -29,9 +29,7 @@ def dangling(campaign: CampaignFile) -> Problems:
         yield from unknown(("assessments", name, "specimen"), "specimen", assessment.specimen, campaign.specimens)
         if assessment.specimen in campaign.specimens:
             yield from _assessed(campaign, name, assessment)
-    for index, test_id, earlier in clashes(test.id for test in campaign.tests):
-        message = f'{shown(test_id)}: a test is called "{earlier}", and upper and lower case do not tell ids apart.'
-        yield ("tests", index, "id"), f"{message} Give every test its own id."
+    yield from _clashing(("tests",), (test.id for test in campaign.tests))
     for index, test in enumerate(campaign.tests):
         yield from unknown(("tests", index, "specimen"), "specimen", test.specimen, campaign.specimens)
         yield from unknown(("tests", index, "setup"), "setup", test.setup, campaign.setups)
@@ -67,16 +65,17 @@ def _assessed(campaign: CampaignFile, name: str, assessment: Assessment) -> Prob
 
 
 def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False) -> Problems:
-    same = "case or in '.', '-' and '_'" if as_variables else "upper and lower case"
-    for _, name, earlier in clashes(names, as_variables=as_variables):
-        yield (*place, name), f'This id differs from "{earlier}" only in {same}. Choose another.'
+    same = "upper and lower case, '.', '-' and '_'" if as_variables else "upper and lower case"
+    for index, name, earlier in clashes(names, as_variables=as_variables):
+        where = (index, "id") if place == ("tests",) else (name,)
+        yield (*place, *where), f'The id "{earlier}" is taken, and {same} do not tell ids apart. Choose another.'
 
 
 def _setup(place: Place, setup: Setup, campaign: CampaignFile) -> Problems:
     against = (*SURROUNDINGS, *campaign.bodies)
     bodies = ("specimen", *against)
     yield from _clashing((*place, "channels"), setup.channels, as_variables=True)
-    yield from _clashing((*place, "recorders"), setup.further_recorders)
+    yield from _clashing((*place, "recorders"), setup.recorders)
     for name, channel in setup.channels.items():
         where = (*place, "channels", name)
         yield from unknown((*where, "recorder"), "recorder", channel.recorder, setup.recorders, " in this set-up")
@@ -84,9 +83,6 @@ def _setup(place: Place, setup: Setup, campaign: CampaignFile) -> Problems:
             if body is not None:
                 yield from unknown((*where, key), "body", body, known)
     for name, recorder in setup.further_recorders.items():
-        if name.casefold() == MAIN:
-            message = f'"{name}" is the recorder of the set-up\'s own `file`. Choose another id for an additional one.'
-            yield (*place, "recorders", name), message
         links = () if recorder.clock == "trigger" else recorder.clock.align
         for linked, owner in zip(links, (MAIN, name), strict=False):
             own = [each for each, channel in setup.channels.items() if channel.recorder == owner]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
@@ -20,10 +20,8 @@ FILE_NAME = "review.toml"
 
 
 def _factor(factor: float) -> float:
-    if factor == 0.0:
-        raise ValueError("A factor of zero would erase the recording. To leave the channel out, [[exclude]] it.")
     if expected := outside(factor, FACTOR):
-        raise ValueError(f"{shown(factor)} was found. {expected}")
+        raise ValueError(f"{shown(factor)} was found. {expected} To leave the channel out, [[exclude]] it.")
     return factor
 
 
@@ -168,14 +166,13 @@ class Review(Record):
         return max(window[0], self.window[0]), min(window[1], self.window[1])
 
 
-def decided(entries: Iterable[Entry]) -> Review:
+def decided(entries: Sequence[Entry]) -> Review:
     """
     Gather the decisions about one test: trims leave their common part, corrections of a channel multiply.
     """
     excluded, window = "", None
     flags: list[Flagged] = []
     factors: dict[str, float] = {}
-    entries = list(entries)
     for entry in entries:
         reason = f"review of {entry.said}"
         if isinstance(entry, Exclude) and entry.channel:
@@ -208,7 +205,7 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
         raise refusal(source.paragraphs(problems))
     entries = [entry for _, entry in review.entries()]
     concerned = dict.fromkeys(name for entry in entries for name in entry.tests)
-    return {name: decided(entry for entry in entries if name in entry.tests) for name in concerned}
+    return {name: decided([entry for entry in entries if name in entry.tests]) for name in concerned}
 
 
 def _problems(

@@ -28,9 +28,7 @@ def _by_recorder(value: object) -> object:
 
 def _with_main(paths: dict[str, Path]) -> dict[str, Path]:
     if MAIN not in paths:
-        raise ValueError(
-            'A file of each recorder was expected, among them `main`: {main = "raw/a.csv", daq2 = "raw/b.csv"}.'
-        )
+        raise ValueError('A file of `main` was expected, too: {main = "raw/a.csv", daq2 = "raw/b.csv"}.')
     return paths
 
 

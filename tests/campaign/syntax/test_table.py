@@ -40,7 +40,7 @@ def test_all_problems_are_told_at_once_each_at_its_key():
 @pytest.mark.parametrize(
     ("table", "value", "told"),
     [
-        (Shelf, {"boxes": 3}, "3 was found. A table was expected."),
+        (Shelf, {"boxes": 3}, "3 was found. A table was expected: by name."),
         (Shelf, {"boxes": {"a": "x"}}, '"x" was found. A table was expected.'),
         (Box, {"width": "1 m", "labels": 5}, "5 was found. A list was expected: words on it."),
     ],

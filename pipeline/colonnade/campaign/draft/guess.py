@@ -145,6 +145,4 @@ def kind_lines(name: str) -> Iterator[str]:
     if kind in ("sine", "pulse") and frequency:
         yield line("frequency", f"{frequency:g} Hz", "from its name")
     elif kind == "earthquake":
-        yield comment(
-            'motion = "El Centro 1940 NS", span = 2.0      the motion that the table was given, and how strongly'
-        )
+        yield comment('motion = "El Centro 1940 NS", span = 2.0      what the table was given, and how strongly')

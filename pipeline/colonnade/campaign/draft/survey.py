@@ -15,7 +15,7 @@ from colonnade.campaign.syntax.document import natural
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
 from colonnade.readers.recording import RecordedChannel
-from colonnade.readers.registry import MOST_GENERAL, read
+from colonnade.readers.registry import read
 
 OWN_FOLDERS = ("processed", "report")
 """Folders that colonnade itself writes next to a campaign file."""
@@ -83,7 +83,9 @@ def survey(
         except UnicodeEncodeError:
             refused.append((ascii(relative)[1:-1], "its name is not UTF-8; rename it"))
         except (ColonnadeError, ValueError, OSError) as error:
-            refused.append((relative, _first_reason(str(error), path.name)))
+            # The second line of a refusal by all formats is that of the most general one.
+            lines = str(error).removeprefix(f"{path.name}: ").splitlines()
+            refused.append((relative, " ".join(line.strip() for line in lines[:2])))
         if progress is not None:
             progress(number, len(paths))
     return found, refused
@@ -95,14 +97,6 @@ def _candidates(folder: Path) -> Iterator[Path]:
         is_own = parts[0] in OWN_FOLDERS or any(part.startswith((".", "~")) for part in parts)
         if not (is_own or path.is_dir() or path.suffix.lower() in NO_RECORDINGS):
             yield path
-
-
-def _first_reason(refusal: str, name: str) -> str:
-    """Keep the part of a refusal that shows that a file is not a recording, or names the extra that reads it."""
-    lines = [line.strip() for line in refusal.removeprefix(f"{name}: ").splitlines() if line.strip()]
-    extra = next((line for line in lines if "pip install" in line), None)
-    general = next((line for line in lines[1:] if line.startswith(f"{MOST_GENERAL}: ")), None)
-    return extra or (f"{lines[0].rstrip('.')} ({general})" if general else lines[0])
 
 
 def look_at(number: int, channel: RecordedChannel) -> Column:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path, PurePosixPath
 
-from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.draft.guess import channel_lines, draft_channels, kind_lines, marker_lines, markers_of
 from colonnade.campaign.draft.survey import Files, arrange, survey
@@ -19,7 +18,6 @@ from colonnade.campaign.setup import Recorder, Tracking
 from colonnade.campaign.specimen import Prism, Specimen
 from colonnade.campaign.syntax.document import toml_key
 from colonnade.errors import CampaignError, count, quoted
-from colonnade.readers.files import irregular
 from colonnade.units.text import listed
 
 MOST_TOLD = 5
@@ -92,9 +90,7 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     setups = [DraftSetup(tests) for tests in arranged]
     for each in setups:
         files = [] if each.channels else [file for test in each.tests for file in test.values()]
-        refused += [
-            (file.relative, f"none of its columns measures anything: {'; '.join(each.left_out)}") for file in files
-        ]
+        refused += [(file.relative, f"no column measures anything: {'; '.join(each.left_out)}") for file in files]
     setups = [each for each in setups if each.channels]
     for number, each in enumerate(setups, start=1):
         each.name = "setup" if len(setups) == 1 else f"setup-{number}"
@@ -119,9 +115,7 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
 def _expected(folder: Path) -> Path:
     folder = Path(os.path.realpath(folder))
     if not folder.is_dir():
-        kind = irregular(folder)
-        found = f"this is {kind}" if kind else "folder not found"
-        raise CampaignError(f"{folder}: {found}. Name the folder with the raw files.")
+        raise CampaignError(f"{folder}: no folder of this name was found. Name the folder with the raw files.")
     path = folder / FILE_NAME
     if path.exists() or path.is_symlink():
         raise CampaignError(
@@ -136,7 +130,7 @@ def written(name: str, setups: Sequence[DraftSetup], refused: Sequence[tuple[str
     ids = iter(unique((PurePosixPath(test[MAIN].stem).name for each in setups for test in each.tests), "test"))
     lines = [
         *_FIRST_LINES,
-        line("schema", SCHEMA),
+        line("schema", 1),
         line("campaign", name, "from the name of the folder"),
         line("title", f"Campaign {name}", "title of the report; write a better one"),
         comment('facility = "…"         the laboratory and its table'),

@@ -20,17 +20,6 @@ Peaks = Annotated[tuple[NonNegativeFloat | None, ...], Field(min_length=2, max_l
 Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
 
 
-class ForecastSide(Record):
-    """A side of the block: rocking about one edge of its base."""
-
-    critical_angle: PositiveFloat
-    """α, rad."""
-    pole_distance: PositiveFloat
-    """R, m."""
-    inertia: PositiveFloat
-    """I₀ about the pole, kg m²."""
-
-
 class ForecastBlock(Record):
     """The block."""
 
@@ -38,9 +27,9 @@ class ForecastBlock(Record):
     """kg."""
     gravity: PositiveFloat
     """m/s²."""
-    negative: ForecastSide
+    negative: Side
     """At θ < 0."""
-    positive: ForecastSide
+    positive: Side
     """At θ > 0."""
     beam_ratio: NonNegativeFloat = 0.0
     """γ: mass of the beam over that of all columns of a frame; 0 for a block."""
@@ -52,8 +41,7 @@ class ForecastBlock(Record):
 
     def block(self) -> Block:
         """Return the block; ValueError if a value is out of its range."""
-        negative, positive = (Side(**side.model_dump()) for side in (self.negative, self.positive))
-        return Block(self.mass, self.gravity, negative, positive, beam_ratio=self.beam_ratio)
+        return Block(**dict(self))
 
 
 class ForecastRestitution(Record):

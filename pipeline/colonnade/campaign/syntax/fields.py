@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import json
 import re
-import reprlib
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime, time
@@ -62,9 +62,6 @@ MOST_CYCLES = 10_000.0
 
 Vector = tuple[float, float, float]
 
-_LONGEST_INTEGER = 256
-"""Bits of an integer that a message repeats."""
-
 _QUANTITY_PATTERN = rf"^\s*{units.NUMBER_PATTERN}\s*[^\s0-9.,].*$"
 
 _DAYS = ("%Y-%m-%d", "%d.%m.%Y", "%d/%m/%Y", "%m/%d/%Y")
@@ -82,17 +79,14 @@ def shown(value: object) -> str:
     """
     if isinstance(value, str):
         return quoted(value)
-    if isinstance(value, bool):
-        return str(value).lower()
     if isinstance(value, dict):
         return "a table"
-    if isinstance(value, (list, tuple)) and all(isinstance(item, (str, int, float)) for item in value):
-        return f"[{', '.join(shown(item) for item in value[:4])}{', …' if len(value) > 4 else ''}]"
-    if isinstance(value, int) and value.bit_length() > _LONGEST_INTEGER:  # Python refuses to write it out
-        return "a whole number of very many digits"
     if isinstance(value, (date, time)):
         return "a date or time"
-    return reprlib.repr(value)
+    try:
+        return quoted(json.dumps(value, ensure_ascii=False, default=str))[1:-1]
+    except ValueError:  # Python does not write out thousands of digits
+        return "a whole number of very many digits"
 
 
 def one_line(message: str) -> str:
@@ -194,26 +188,19 @@ def day(value: object) -> date:
     >>> day("26.04.2013").isoformat()
     '2013-04-26'
     """
-    if isinstance(value, datetime):
-        value = value.date()
-    found = value if isinstance(value, date) else _written(value.strip()) if isinstance(value, str) else None
-    if found is None:
-        raise ValueError(f"{shown(value)} was found. A date was expected, such as 2013-04-26.")
-    return found
-
-
-def _written(text: str) -> date | None:
-    """Read a day from text; None if it is not one."""
-    alone, days = re.sub(r"(?<=[-/.]) ", "", _TIME_OF_DAY.sub("", text)), dict[date, None]()
+    text = re.sub(r"(?<=[-/.]) ", "", _TIME_OF_DAY.sub("", str(value).strip()))
+    days = dict[date, None]()
     for form in _DAYS:
         with suppress(ValueError):
-            days[datetime.strptime(alone, form).date()] = None
+            days[datetime.strptime(text, form).date()] = None
+    if not days:
+        raise ValueError(f"{shown(value)} was found. A date was expected, such as 2013-04-26.")
     if len(days) > 1:
         raise ValueError(
-            f"{shown(text)} is {' or '.join(map(str, days))}: it is not clear which number is the day. Write the "
+            f"{shown(value)} is {' or '.join(map(str, days))}: it is not clear which number is the day. Write the "
             "year first, such as 2013-04-26."
         )
-    return next(iter(days), None)
+    return next(iter(days))
 
 
 def listed(value: object) -> object:

@@ -90,12 +90,15 @@ def refuse(problems: Iterable[InitErrorDetails]) -> ValidationError:
 
 
 _OF_LISTS = ("list_type", "tuple_type", "too_long", "too_short", "missing")
-_TEXT = ("string_type", "string_pattern_mismatch")
-_BOUNDS = ("int_type", "int_from_float", "greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _WANTED = {
-    "float_type": "A plain number was expected, without quotes and without a unit.",
-    "finite_number": "A finite number was expected.",
-} | dict.fromkeys(("model_type", "dict_type", "model_attributes_type"), "A table was expected.")
+    "float_type": "A plain number was expected, without quotes and without a unit",
+    "finite_number": "A finite number was expected",
+    "string_type": "Text in quotes was expected",
+    "string_pattern_mismatch": "Text in quotes was expected",
+    **dict.fromkeys(("model_type", "dict_type", "model_attributes_type"), "A table was expected"),
+    **dict.fromkeys(("list_type", "tuple_type"), "A list was expected"),
+    "missing": "A list of more values was expected",
+}
 
 
 def _explained(table: type[Table], data: Any, errors: list[ErrorDetails]) -> Iterator[InitErrorDetails]:
@@ -149,35 +152,13 @@ def _sentence(table: type[Table], place: Place, error: ErrorDetails) -> str:
         return f"Unknown key.{nearest(str(place[-1]), table.purposes())}"
     if kind == "missing" and isinstance(error["loc"][-1], str):
         return missing(table, str(place[0]))
-    if kind == "literal_error" and place == ("schema",):
-        return f"{found} This colonnade reads schema {error['ctx']['expected']}."
-    if kind in ("literal_error", "union_tag_invalid"):
+    if kind in ("literal_error", "union_tag_invalid") and _words(error):
         given = error["ctx"].get("tag", error["input"])
         return f"{shown(given)} was found.{nearest(str(given), _words(error))}"
     if kind == "union_tag_not_found":
         return '"shape" is missing. Choose one of: "prism", "cylinder", "cone", "measured".'
-    either = table.alternatives().get(str(place[0]), []) if place else []
-    if kind in _OF_LISTS or kind in _TEXT:
-        said = _list(either) if kind in _OF_LISTS else "Text in quotes"
-        return f"{found} {said} was expected: {purpose(table, place[0] if place else '')}"
-    return f"{found} {_number(either) if kind in _BOUNDS else _WANTED.get(kind, error['msg'] + '.')}"
-
-
-def _list(either: list[dict[str, Any]]) -> str:
-    """Say which list was expected."""
-    low, high = next(((each.get("minItems"), each["maxItems"]) for each in either if "maxItems" in each), (None, None))
-    if high is None:
-        return "A list"
-    return f"A list of {high}" if low == high else f"A list of {low} to {high} values"
-
-
-def _number(either: list[dict[str, Any]]) -> str:
-    """Say which number was expected."""
-    kinds = [*either, *(item for each in either for item in each.get("prefixItems", ()))]
-    bounds: dict[str, Any] = next((each for each in kinds if each.get("type") in ("number", "integer")), {})
-    words = {"minimum": "of at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
-    ends = " and ".join(f"{word} {bounds[key]:.10g}" for key, word in words.items() if key in bounds)
-    return f"A {'whole ' if bounds.get('type') == 'integer' else ''}number {ends} was expected."
+    wanted = _WANTED.get(kind) or re.sub(r"^\w+ should", "It should", error["msg"])
+    return f"{found} {wanted}: {purpose(table, place[0])}" if place else f"{found} {wanted}."
 
 
 def missing(table: type[Table], key: str) -> str:
