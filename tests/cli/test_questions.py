@@ -226,25 +226,6 @@ def test_a_map_is_written_with_its_picture(colonnade, campaign):
     assert told.stdout.startswith("prism, nonlinear model: no measured point, e rigid-body; computed\n")
 
 
-def test_commands_have_one_default_model():
-    from colonnade.campaign.assessment import Assessment
-    from colonnade.workflow.maps import Wanted
-    from colonnade.workflow.spectrum import AskedSpectrum
-
-    asked = (table.model_fields["model"].default for table in (AskedSpectrum, Assessment))
-    assert {*asked, *Wanted().models} == {"nonlinear"}
-
-
-def test_each_model_has_its_own_map_and_json_tells_where(colonnade, campaign):
-    told = colonnade("map", *SMALL, "--model", "nonlinear", "--json")
-    assert told.returncode == 0
-    (made,) = json.loads(told.stdout)
-    assert (made["specimen"], made["model"], made["because"]) == ("prism", "nonlinear", "never run")
-    assert made["path"].endswith("prism-nonlinear.nc")
-    again = json.loads(colonnade("map", *SMALL, "--model", "nonlinear", "--json").stdout)
-    assert again[0]["because"] == ""
-
-
 @pytest.mark.whole
 def test_several_models_and_their_responses_are_written_with_a_picture_together(colonnade, campaign):
     models = ("--model", "linear", "--model", "nonlinear")

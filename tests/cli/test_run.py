@@ -139,16 +139,6 @@ def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, 
     assert told.stdout.startswith("2 tests: 2 would fail. Nothing")
 
 
-def test_what_ingest_would_refuse_is_told_too(colonnade, campaign):
-    file = campaign / "raw" / "free-02.csv"
-    rows = [line.split(";")[1] for line in file.read_text(encoding="utf-8").splitlines()]
-    file.write_text("\n".join(rows), encoding="utf-8")
-    told = colonnade("check")
-    assert told.returncode == 1
-    assert told.stdout.startswith("2 tests: 1 would fail, 1 good.")
-    assert "sampling_rate" in told.stdout
-
-
 def test_a_campaign_file_that_cannot_be_used_is_exit_code_2(colonnade, changed):
     changed("campaign.toml", '"86 mm", depth', '"86 mn", depth')
     told = colonnade("check")

@@ -72,6 +72,17 @@ def test_a_reversed_decision_and_the_page_that_reverses_it_lead_to_each_other():
     assert [(new, old) for new, old in reversals if f"({new})" not in DECIDED[old]] == []
 
 
+TUTORIAL = PROJECT / "docs" / "tutorial"
+LARGEST = 150_000
+"""Bytes of a picture."""
+
+
+@pytest.mark.parametrize("picture", sorted(path.name for path in TUTORIAL.iterdir() if path.suffix in (".svg", ".png")))
+def test_a_picture_is_small_and_shown(picture):
+    assert (TUTORIAL / picture).stat().st_size <= LARGEST
+    assert any(f"]({picture})" in page.read_text(encoding="utf-8") for page in TUTORIAL.glob("*.md"))
+
+
 EXPLANATIONS = sorted((PROJECT / "docs" / "explanation").glob("*.md"))
 STRENGTH = 0.55
 """Of the earthquake on the page: the block is sensitive to it."""

@@ -35,7 +35,7 @@ def test_a_hostile_file_is_only_read(tmp_path, name, copies, capsys):
     hostile.secrets(tmp_path / "secrets")
     (tmp_path / "campaign").mkdir()
     place = hostile.Place(tmp_path / "campaign", tmp_path / "secrets", tmp_path / "made")
-    path, format, options = hostile.FILES[name](place)
+    path, format = hostile.FILES[name](place), "waveform" if name == "seismic_pickle" else None
     content, before, seen, slowest = path.read_bytes(), files(tmp_path, path), Counter(), 0.0
     for number in range(-1, copies):
         if number >= 0:
@@ -43,7 +43,7 @@ def test_a_hostile_file_is_only_read(tmp_path, name, copies, capsys):
             path.write_bytes(damaged(content, kind, random.Random(f"{SEED} {name} {number}")))
         began = time.monotonic()
         try:
-            recording = read(path, format, options, within=place.folder)
+            recording = read(path, format, within=place.folder)
         except ReadError as refusal:
             said = str(refusal)
             assert path.name in said

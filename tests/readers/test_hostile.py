@@ -29,7 +29,7 @@ def test_no_command_runs_what_a_file_by_the_name_of_a_table_holds(tmp_path, tmp_
     inner = hostile.Place(tmp_path / "raw", beside, tmp_path / "made")
     text = CAMPAIGN
     for number, name in enumerate(("netcdf_elsewhere", "pickle_as_text", "matlab_elsewhere"), 1):
-        path = hostile.FILES[name](inner).path
+        path = hostile.FILES[name](inner)
         path = path.rename(path.with_name(f"free-0{number}.csv"))
         text += entry(path.stem, "other")
     for command in (["init"], ["check"], ["ingest", "--workers", "1"]):

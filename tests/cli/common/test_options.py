@@ -29,22 +29,3 @@ def test_an_option_has_the_same_help_everywhere():
                 said.setdefault((each.opts[0], each.multiple), set()).add(each.help)
     assert ("--specimen", False) in said
     assert all(len(texts) == 1 for texts in said.values())
-
-
-def declared(name):
-    return {each.name: each for each in params(app.commands[name])}
-
-
-def test_options_of_a_table_are_those_of_its_keys():
-    from colonnade.campaign.assessment import Assessment
-    from colonnade.workflow.spectrum import AskedSpectrum
-
-    made = declared("spectrum")
-    assert AskedSpectrum.model_fields.keys() <= made.keys()
-    assert all(made[key].help.startswith(field.description) for key, field in AskedSpectrum.model_fields.items())
-    assert (made["omega"].nargs, made["slenderness"].multiple) == (2, True)
-    assert made["points"].help.endswith("Default: 24.")
-    left_out = {"specimen", "scale", "measures", "displaced"}
-    assess = declared("fragility")
-    assert Assessment.model_fields.keys() - left_out <= assess.keys()
-    assert assess["levels"].opts == ["--level"]
