@@ -169,23 +169,3 @@ def test_the_full_equation_on_a_record_beside_heyoka(capsys):
             )
         assert errors[0] < 1e-9
         assert seconds[1] / seconds[0] >= 2.2
-
-
-def test_the_exact_engine_beside_a_bare_pass_over_the_samples(capsys):
-    # 50 s at 500 Hz, without rocking and with 400 impacts; the peer reads, multiplies and writes each sample.
-    moment = np.arange(0, 50, 0.002)
-    base = np.sin(2 * np.pi * 4 * moment) * ALPHA
-    written = np.empty_like(base)
-    levels = 0.9, 1.5
-    bare, *seconds = least_seconds(
-        partial(np.multiply, base, 2.0, out=written), *(partial(_exact, level * base) for level in levels), rounds=20
-    )
-    with capsys.disabled():
-        print(f"\nbare pass: {1e9 * bare / base.size:.2f} ns a sample", end="")
-        for level, cost in zip(levels, seconds, strict=True):
-            print(
-                f"; exact engine at A α/tan α = {level}: {1e9 * cost / base.size:.1f} ns, {cost / bare:.0f} times",
-                end="",
-            )
-        print()
-    assert seconds[1] / bare < 200

@@ -1,5 +1,7 @@
 """Each kind of result is drawn into axes that are given back; a history can be animated; results show themselves."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from matplotlib import pyplot
@@ -109,6 +111,13 @@ def test_a_history_is_animated_and_can_be_written(history, tmp_path):
 def test_a_result_shows_itself_in_a_line(result):
     assert len(repr(result)) < 200
     assert repr(result).startswith(f"<{type(result).__name__}: ")
+
+
+def test_pyplot_with_its_state_is_used_only_for_a_figure_that_a_person_shows():
+    project = Path(__file__).resolve().parents[2]
+    sources = [*(project / "pipeline").rglob("*.py"), *(project / "reports").rglob("*.py")]
+    users = [path for path in sources if "pyplot" in path.read_text(encoding="utf-8")]
+    assert users == [project / "pipeline/colonnade/figures/plot.py"]
 
 
 def test_an_assembly_is_drawn_joint_by_joint_and_moves_body_by_body():

@@ -92,17 +92,6 @@ def test_a_campaign_without_any_result_has_a_report(empty_campaign):
     assert "No result is stored yet." in words_of(texts["methods.html"])
 
 
-def test_a_campaign_in_which_everything_failed_has_a_report(empty_campaign, tmp_path):
-    campaign, layout = empty_campaign[0], Layout(tmp_path)
-    for name in [*campaign.tests]:
-        files.write_failed(
-            layout.stage(name, "ingest"), f"{name}: the file is empty <b>", attributes={"stage": "ingest"}
-        )
-    text = built(campaign, layout).read_text(encoding="utf-8")
-    assert "9 failed" in Page(text).words
-    assert text.count("the file is empty &lt;b&gt;") == 9
-
-
 def test_a_damaged_result_is_told_as_a_failure(empty_campaign, tmp_path):
     campaign, layout = empty_campaign[0], Layout(tmp_path)
     layout.test("free-01").mkdir(parents=True)

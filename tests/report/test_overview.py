@@ -52,8 +52,8 @@ def row_of(reported):
 MODELS = ("linear",)
 
 
-def warned(severity, text, *, explained=False):
-    return Warned(severity=severity, kind="gain", text=text, stage="rocking", explained=explained)
+def warned(severity, text, **more):
+    return Warned(**{"severity": severity, "kind": "gain", "text": text, "stage": "rocking"} | more)
 
 
 def looked_at(rows):
@@ -92,6 +92,35 @@ def test_of_many_missed_tests_a_few_are_named_and_the_table_has_all(row_of, fill
     page = rendered(filled_campaign[0], "attention", "index.html", attention=found, specimens=[])[0]
     assert page.count('href="tests/a') == 20
     assert 'href="?outcome=overturned&amp;linear=rocking#tests">10 more in the table</a>' in page
+
+
+def groups_of(*found):
+    return [(group.first.text, group.subjects) for group in warning_groups(found)]
+
+
+def test_warnings_of_a_stage_that_differ_in_their_numbers_alone_are_one_group_and_name_a_test_once():
+    spikes = [
+        ("a", warned("warning", "3 spikes")),
+        ("b", warned("warning", "17 spikes")),
+        ("a", warned("warning", "1 spikes")),
+    ]
+    assert groups_of(*spikes) == [("3 spikes", ["a", "b"])]
+    others = (
+        warned("note", "3 spikes"),
+        warned("warning", "3 spikes", stage="condition"),
+        warned("warning", "top-1"),
+        warned("warning", "top-2"),
+    )
+    assert len(groups_of(*spikes, *(("a", each) for each in others))) == 5  # a number in a name is part of it
+
+
+def test_the_worst_come_first_and_then_what_most_tests_have():
+    found = [
+        ("a", warned("warning", "one")),
+        *((name, warned("warning", "two")) for name in "ab"),
+        ("c", warned("serious", "bad")),
+    ]
+    assert [text for text, _ in groups_of(*found)] == ["bad", "two", "one"]
 
 
 BOTH = ("linear", "nonlinear")

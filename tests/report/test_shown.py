@@ -111,13 +111,6 @@ def test_one_frequency_gives_boundaries_and_no_map(texts, overview):
     assert "3.347 below 3.783 below 3.783" in words_of(texts["specimens/prism.html"])
 
 
-def test_spans_stand_side_by_side_in_their_order(overview):
-    spans = overview[overview.index('<section id="spans">') :]
-    assert spans.count("<svg xmlns") == 1
-    assert spans.index(">Span 2.0</text>") < spans.index(">Span 2.5</text>") < spans.index(">Span 3.0</text>")
-    assert "nonlinear model" in spans
-
-
 def test_a_test_says_what_was_done_and_found(texts):
     words = words_of(texts["tests/span-2.0.html"])
     for expected in (

@@ -2,10 +2,8 @@
 
 import copy
 import json
-from math import pi
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import reproduce
@@ -159,17 +157,6 @@ def test_a_statement_without_a_rule_is_undecided_and_one_with_a_rule_is_decided_
 def test_what_was_put_in_is_never_called_agreement(kept):
     for name in ("e-of-the-prism", "span-is-intensity", "record", "scale"):
         assert kept["answers"][name]["verdict"] == "undecided"
-
-
-@pytest.mark.whole
-def test_the_schemes_of_the_paper_follow_a_sine():
-    block = printed.TABLE_1["prism"].block
-    time = np.arange(301) * 0.01
-    motion = computed.Motion(1.5 * block.uplift_acceleration * np.sin(2 * pi * 4 * time), 0.01)
-    rows = computed.schemes(block, {"test": motion})
-    assert len(rows) == 4
-    assert all(row["largest_error"] < 0.02 for row in rows)
-    assert rows[1]["step"] == pytest.approx(1e-5)
 
 
 @pytest.mark.slow

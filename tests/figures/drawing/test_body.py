@@ -63,18 +63,3 @@ def test_each_view_gives_the_sizes_that_it_sees(orientation, body, sizes):
     one = view(orientation)
     drawing.draw_dimensions(one, body)
     assert written(one) == sizes
-
-
-def test_the_critical_angle_is_drawn_from_the_vertical_to_the_centre_of_mass():
-    one = view()
-    drawing.draw_rocking(one, Rocking.of(BLOCK))
-    arc = next(line for line in one.axes.lines if len(line.get_xdata()) == 20)
-    across, up = arc.get_xdata() - 0.043, arc.get_ydata()
-    turns = np.arctan2(-across, up)
-    assert (turns[0], turns[-1]) == pytest.approx((0.0, BLOCK.critical_angle))
-    np.testing.assert_allclose(np.hypot(across, up), 0.62 * 0.228)
-    assert written(one) == {"α"}
-    for orientation, place in ((SIDE, (0.0, 0.228)), (PLAN, (0.0, 0.0))):
-        one = view(orientation)
-        drawing.draw_rocking(one, Rocking.of(BLOCK))
-        assert all((mark.get_xdata()[0], mark.get_ydata()[0]) == pytest.approx(place) for mark in one.axes.lines)

@@ -59,13 +59,6 @@ def test_an_arrow_starts_at_the_point_and_has_the_sign_of_the_reading(sign):
     assert (dot, cross) == (sign > 0, sign < 0)
 
 
-def test_a_wrong_place_is_seen_off_the_body():
-    elevation, *_ = views(top=TOP.model_copy(update={"at": (0.43, 0.0, 0.44)}))
-    low, high = elevation.get_xlim()
-    assert ("o", 0.43, 0.44) in marks(elevation)
-    assert low < -0.43 < 0.43 < high
-
-
 def test_poles_centre_of_mass_and_dimensions_are_to_scale():
     elevation, *_ = views()
     found = marks(elevation)

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.setup import ELEVATION
-from colonnade.figures.drawing.view import Label, Rocking, View, _spaced
+from colonnade.figures.drawing.view import Rocking, View, _spaced
 
 
 def view(orientation):
@@ -23,15 +22,6 @@ def test_labels_stay_apart_and_within_the_view(wanted):
     assert len(placed) == len(wanted)
     assert all(after - before >= 1.0 - 1e-9 for before, after in pairwise(placed))
     assert all(-1e-9 <= each <= 10.0 + 1e-9 for each in placed)
-
-
-def test_a_long_name_is_cut_to_its_margin():
-    one = view(ELEVATION)
-    one.labels.append(Label((0.05, 0.0), "1 " + "x" * 60, "displacement", "black"))
-    one.write_labels(1.0)
-    (name,) = (text.get_text() for text in one.axes.texts if "x" in text.get_text())
-    assert name.endswith("…")
-    assert len(name) < 25
 
 
 def test_the_centre_of_mass_is_nearer_to_the_pole_of_the_smaller_angle():

@@ -12,11 +12,8 @@ from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_csv
 from colonnade.figures.files.table import columns_of
-from colonnade.figures.histories import Panel, Spread
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve
-from colonnade.figures.stored.record import whole_record
 
-TIME = np.linspace(0.0, 20.0, 20_001)
 NUMBERS = st.floats(-1e6, 1e6, width=32)
 
 
@@ -51,45 +48,6 @@ def test_every_drawn_line_is_in_the_table_with_all_its_samples(curves, names):
     assert len(written) == 1 + longest
     assert {len(row) for row in written} == {len(table)}
     assert not any(cell.startswith(("=", "+", "@")) for cell in written[0])
-
-
-def test_a_record_gives_one_time_and_a_column_a_curve_at_full_length():
-    measured, linear = Curve(TIME, np.sin(TIME)), Curve(TIME, np.cos(TIME))
-    misfit = Panel("Misfit", "predicted −\nmeasured, / α", "", {"linear": Curve(TIME, linear.values - measured.values)})
-    base = Panel("Base", "base", "m/s²", {"": Curve(TIME, np.tan(TIME))})
-    spread = Spread(TIME, np.array([0.05, 0.5, 0.95]), np.sin(TIME) + np.array([[-0.1], [0.0], [0.1]]), 0.0, 5.0)
-    impacts = np.array([1.0, 2.5])
-    figure = whole_record(
-        {"measured": measured, "linear": linear},
-        [misfit, base],
-        impacts=impacts,
-        peak=(1.0, 0.5),
-        spreads={"linear": spread},
-    )
-    before = to_csv(figure)
-    table = table_of(figure)
-    assert list(table) == [
-        "time (s)",
-        "θ / α, measured",
-        "θ / α, linear model",
-        "time (s), measured impact",
-        "time (s), largest measured",
-        "θ / α, largest measured",
-        "θ / α, linear 90 % band, low",
-        "θ / α, linear 90 % band, high",
-        "predicted − measured, / α, linear model",
-        "base (m/s²)",
-    ]
-    for heading, values in {
-        "time (s)": TIME,
-        "θ / α, measured": measured.values,
-        "base (m/s²)": base.curves[""].values,
-        "θ / α, linear 90 % band, high": spread.bands[-1],
-        "time (s), measured impact": impacts,
-    }.items():
-        np.testing.assert_array_equal(table[heading], values)
-    figure.savefig(io.BytesIO())
-    assert to_csv(figure) == before
 
 
 def test_a_gap_is_an_empty_cell_and_a_shorter_column_ends():

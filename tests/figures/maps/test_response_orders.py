@@ -1,7 +1,6 @@
 """The figure of steady responses shows their orders by colour, curves of their amplitudes, and measured points."""
 
 import numpy as np
-import pytest
 
 from colonnade.dynamics.maps import SteadyResponse
 from colonnade.figures.maps.response_orders import response_orders
@@ -38,21 +37,3 @@ def test_curves_break_where_the_order_changes_and_dots_mark_what_is_not_every_cy
     assert not any(joined)
     np.testing.assert_allclose(dots.get_xdata(), LEVELS[2:4])
     np.testing.assert_allclose(dots.get_ydata(), [0.5, 0.6])
-
-
-def test_a_block_that_nowhere_rocks_has_no_curves():
-    order = np.zeros((7, 5), dtype=np.int8)
-    resting = SteadyResponse(OMEGAS, LEVELS, order, np.zeros(order.shape))
-    figure = response_orders(resting, [], OPTIONS)
-    assert [len(axes.lines) for axes in figure.axes[1:]] == [0, 0]
-
-
-def test_what_the_responses_depend_on_stands_above():
-    title = response_orders(response(), [], OPTIONS).axes[0].get_title(loc="left")
-    assert title == "linear model; e = 0.9; linear ramps of 2, phase 0°, 400 cycles to settle"
-
-
-def test_a_single_column_is_no_map():
-    one = SteadyResponse(OMEGAS[:1], LEVELS, *(np.zeros((1, 5)) for _ in range(2)))
-    with pytest.raises(ValueError, match="at least two of each"):
-        response_orders(one, [], OPTIONS)

@@ -43,22 +43,10 @@ def test_a_rigid_body_value_far_away_does_not_squeeze_the_estimates(rigid, told)
     assert told in [text.get_text() for text in axes.texts]
 
 
-def test_one_estimate_far_off_is_an_arrow_at_the_edge():
-    rows = [EstimateRow(str(n), 0.95, 0.949, 0.951) for n in range(4)] + [EstimateRow("off", 0.7, 0.699, 0.701)]
-    axes = estimators_side_by_side({"": rows}, rigid=0.95).axes[0]
-    mark = next(line for line in axes.lines if line.get_marker() == "<")
-    assert mark.get_transform() == axes.get_yaxis_transform()
-    assert mark.get_xdata()[0] == 0.0
-    assert axes.get_xlim()[0] > 0.9
-
-
 def test_a_refusal_by_all_estimators_has_no_scale():
     axes = estimators_side_by_side({"": [NOTHING]}, rigid=0.95).axes[0]
     assert axes.get_xticks().size == 0
     assert [text.get_text() for text in axes.texts] == ["impact by impact", "none"]
-
-
-UNKNOWN = EstimateRow("", np.nan, np.nan, np.nan)
 
 
 def impacts(title="free-01", *, count=20, error=1e-3, used=True):
@@ -75,16 +63,10 @@ def named(axes):
 def test_the_axis_of_e_shows_the_bars_of_the_surest_impacts_and_not_what_scatters_at_the_end(count):
     series = impacts(count=count)
     series.restitution[-1], series.standard_error[-1] = (0.2, 0.5) if count > 2 else (0.95, 1e-3)
-    low, high = impact_restitution([series], level=UNKNOWN, rigid=0.8).axes[0].get_ylim()
+    low, high = impact_restitution([series], level=NOTHING, rigid=0.8).axes[0].get_ylim()
     assert low < 0.948
     assert high > 0.952
     assert high - low < 0.1
-
-
-def test_impacts_without_a_value_are_said():
-    series = impacts()._replace(restitution=np.full(20, np.nan))
-    texts = impact_restitution([series], level=UNKNOWN, rigid=0.8).axes[0].texts
-    assert "no impacts" in [text.get_text() for text in texts]
 
 
 def decay(title="free-01", *, count=20, restitution=0.95, used=None):
@@ -133,12 +115,6 @@ def test_an_asymmetric_block_scales_each_side_by_its_own_angle():
     assert shown == pytest.approx([0.4375, 0.75, 0.9375], abs=2e-3)  # 1 − (1 − |θ|/α)², and −0.15 is beyond α
 
 
-def test_no_peak_at_all_is_said():
-    empty = np.empty(0)
-    figure = peak_decay([PeakSeries("free-01", empty, empty, empty, empty.astype(bool))], PRISM)
-    assert figure.axes[0].texts[0].get_text() == "no peaks"
-
-
 TIME = np.linspace(0, 6, 601)
 MEASURED_ANGLE = Curve(TIME, 0.5 * np.exp(-TIME / 3) * np.cos(4 * TIME))
 PART = slice(100, 500)
@@ -166,6 +142,3 @@ def test_the_joint_region_holds_its_share_of_a_normal_distribution():
         distance = np.einsum("ij,jk,ik->i", away, np.linalg.inv(covariance), away)
         assert distance == pytest.approx(np.full(away.shape[0], stats.chi2.ppf(level, 2)))
     assert "e with α as given" in axes.get_legend_handles_labels()[1]
-
-
-X, Y = np.arange(4.0), np.arange(4.0) + 10.0

@@ -69,18 +69,6 @@ def test_an_earthquake_is_enlarged_about_its_largest_angle(reported):
     assert picture.note == "Right: the rocking angle, about the largest angle."
 
 
-def test_a_sine_without_a_steady_part_is_not_said_to_have_one():
-    time = np.arange(0, 12, 0.004)
-    rocking = {name: ("elapsed", 0.05 * np.sin(6.0 * time)) for name in ("rocking_angle", "base_acceleration")}
-    forcing = {"forcing_frequency": 2.0, "steady_start": np.nan, "steady_stop": np.nan}
-    stored = Stored({("rocking", None): xr.Dataset(rocking, {"elapsed": time}), ("compare", None): xr.Dataset(forcing)})
-    record = TestSummary(
-        status="done", kind="sine", specimen="prism", outcome="rocking", frequency_ratio=2.2, peak_time=4.0
-    )
-    picture = closer.picture(sine(record, stored))
-    assert picture.note == "Right: the rocking angle, about the largest angle."
-
-
 @pytest.fixture
 def moving(reported):
     def of(name, *, without=()):

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.figures.files.table import columns_of
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution import decay, estimators
 from colonnade.figures.stored import record
@@ -55,16 +54,6 @@ def test_of_many_spans_some_are_drawn_and_the_caption_says_so():
 
 
 STRONG = "sine-3hz-too-strong-for-the-block-1"
-
-
-def test_measured_and_predicted_are_drawn_and_said(reported):
-    picture = record.angle(reported["span-2.0"])
-    assert (picture.identity, picture.title) == ("angle-span-2.0", "span-2.0: rocking angle over time")
-    assert picture.description.startswith("Measured: rocking, largest |θ|/α 0.19")
-    columns = columns_of(picture.figure)
-    assert {"θ / α, measured", "θ / α, linear model", "θ / α, nonlinear model"} <= columns.keys()
-    peak = reported["span-2.0"].record.peak_ratio
-    assert np.nanmax(np.abs(columns["θ / α, measured"])) == pytest.approx(peak, rel=1e-3)
 
 
 def title(picture):

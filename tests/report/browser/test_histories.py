@@ -270,15 +270,6 @@ def test_a_picture_is_saved_as_svg_and_png(page):
     assert download.value.suggested_filename == f"record-{TEST}.png"
 
 
-def test_what_a_picture_shows_is_saved_as_csv(page, filled_campaign):
-    rows = list(
-        csv.reader(io.StringIO(saved(page, page.locator(".replaced .downloads").get_by_role("button", name="as CSV"))))
-    )
-    assert rows[0][:2] == ["time (s)", "θ / α, measured"]
-    rocking = files.read(filled_campaign[1].path(ResultId(TEST, "rocking")))
-    np.testing.assert_allclose([float(row[0]) for row in rows[1:] if row[0]], rocking["elapsed"], atol=1e-6)
-
-
 ORDER = ["histories", "findings", "found", "closer", "spread", "table", "channels", "done", "setup"]
 
 
@@ -357,14 +348,3 @@ def test_readings_have_no_powers_of_ten_and_no_more_digits_than_the_curve_deserv
         ([123456.7], "123457"),
     ):
         assert page.evaluate(written, given) == text
-
-
-def test_samples_of_the_models_have_their_own_dashes_in_lines_and_bands(page):
-    looks = page.locator(".curves button").evaluate_all(
-        "keys => keys.map(key => [key.textContent, getComputedStyle(key.firstChild).backgroundImage])"
-    )
-    of = [{look for name, look in looks if name.startswith(f"{model} model")} for model in ("linear", "nonlinear")]
-    assert all(of)
-    dashes = [{frozenset(re.findall(r"([\d.]+)px", look)) for look in each} for each in of]
-    assert [len(each) for each in dashes] == [1, 1]
-    assert dashes[0].isdisjoint(dashes[1])

@@ -34,13 +34,6 @@ def test_the_target_of_a_named_motion_is_laid_on_what_was_recorded(table, report
     assert len(found["picture"].figure.axes) == 3
 
 
-def test_a_motion_without_a_reference_has_its_own_spectrum_alone(table):
-    found = table("span-2.0")
-    assert "#target" not in found["heads"]
-    assert found["facts"] == []
-    assert len(found["picture"].figure.axes) == 2
-
-
 def test_a_sine_has_its_achieved_frequency_amplitude_and_distortion_and_no_spectrum(table, reported):
     name = next(name for name, one in reported.items() if one.test.kind == "sine" and one.record.frequency)
     found = table(name)

@@ -61,18 +61,6 @@ def test_the_recommended_estimator_gives_the_value_with_its_interval(reported):
     assert "interval" not in chosen.text
 
 
-def test_a_note_on_a_file_may_hold_a_semicolon(reported):
-    notes = page.notes_of(reported["span-2.0"].stored)
-    assert notes[-1] == 'span-2.0.csv: clock: column 1, "Time" (in s; rising)'
-    assert all(note.startswith("span-2.0.csv: ") for note in notes)
-
-
-def test_the_page_says_where_the_results_are_and_when_the_file_says_it_was_recorded(reported):
-    known = dict(page.done_of(reported["span-2.0"]))
-    assert known["results"].startswith("NetCDF files in processed/tests/span-2.0/, next to")
-    assert "recorded" not in known, "the file gives no date"
-
-
 def test_what_is_not_known_or_has_no_label_is_left_out_and_the_order_stays():
     facts = [("b", "2 mm"), ("", "3 mm"), ("c", ""), ("d", NOTHING), ("a", "0 mm")]
     assert known(facts) == [("b", "2 mm"), ("a", "0 mm")]
