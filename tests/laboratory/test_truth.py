@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.runs import with_truth
-from colonnade.laboratory.table import TableMotion, ramped_sine, recorded
+from colonnade.laboratory.table import TableMotion, ramped_sine
 from colonnade.laboratory.truth import REST_ANGLE, Simulation, simulate
 from every import every
 from prism import PRISM
@@ -39,17 +38,6 @@ def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
     # From uplift on θ̈ = p² cos α · 3 (t − t₀) / g to first order: θ = p² cos α · 3 (t − t₀)³ / 6 g.
     risen = UNEVEN.side_p(after.geometry) ** 2 * cos(critical) * 3.0 * 0.02**3 / (6 * UNEVEN.gravity)
     assert after.theta == pytest.approx(side * risen, rel=2e-3)
-
-
-def test_angles_between_steps_are_those_of_shorter_pieces():
-    time = np.linspace(0.0, 2.0, 41)
-    whole, parts = (running(0.6 * ALPHA, 0.0, time=time) for _ in range(2))
-    whole.go(0.0, 2.0, still)
-    for start, stop in pairwise(time.tolist()):
-        parts.go(start, stop, still)
-    assert len(whole.impact_times) >= 3
-    np.testing.assert_allclose(parts.impact_times, whole.impact_times, atol=1e-9)
-    np.testing.assert_allclose(parts.angle, whole.angle, atol=1e-9)
 
 
 def test_a_mirrored_push_gives_a_mirrored_history():
@@ -171,15 +159,6 @@ def test_a_held_block_stays_until_its_release():
     free = simulate(PRISM, time, restitution=0.976, theta0=0.1)
     assert np.all(held.angle[time <= 1.0] == 0.1)
     np.testing.assert_allclose(held.angle[101:], free.angle[1:-100], atol=1e-10)
-
-
-def test_samples_of_a_record_and_a_smooth_sine_give_the_same_truth():
-    table = ramped_sine(5.0, 1.5 * PRISM.uplift_acceleration, start=0.2, cycles=4, ramp=2)
-    dt = 1e-3
-    sampled = recorded(Motion(table.acceleration(0.2 + dt * np.arange(1601)), dt), start=0.2)
-    time = np.arange(0.0, 2.5, 0.01)
-    smooth, linear = (simulate(PRISM, time, each, restitution=0.976) for each in (table, sampled))
-    np.testing.assert_allclose(linear.angle, smooth.angle, atol=2e-3 * PRISM.critical_angle)
 
 
 def test_each_number_has_its_truth_next_to_it(tmp_path):
