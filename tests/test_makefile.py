@@ -1,6 +1,5 @@
 """Its targets are those that texts name; which interpreter `make` takes, by stand-ins on a PATH with nothing else."""
 
-import os
 import re
 import shutil
 import subprocess
@@ -91,18 +90,6 @@ def test_without_a_fitting_interpreter_one_line_to_type_is_printed(clone):
     assert told.returncode != 0
     assert [line for line in told.stdout.splitlines() if line.startswith("  ")] == ["  sudo dnf install python3.13"]
     assert not (clone / ".venv").exists()
-
-
-def test_the_environment_is_enough_for_the_demo_and_only_touched_again_when_pyproject_changed(clone):
-    add_interpreter(clone, "python3.12", FITTING)
-    make(clone, ".venv/installed")
-    (clone / "calls").unlink()
-    make(clone, ".venv/installed", ".venv/installed-demo")
-    assert not (clone / "calls").exists()
-    later = (clone / ".venv" / "installed").stat().st_mtime + 10
-    os.utime(clone / "pyproject.toml", (later, later))
-    make(clone, ".venv/installed")
-    assert (clone / "calls").read_text().startswith("-m pip install")
 
 
 def test_all_tests_are_those_of_every_day_and_the_whole_ones(clone):

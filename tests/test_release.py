@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import release
-from release import ReleaseError, checked_version, cited, cut, versioned
+from release import ReleaseError, cited, cut, versioned
 
 PROJECT = Path(__file__).parents[1]
 CHANGELOG = "# Changelog\n\nWords.\n\n## Unreleased\n\n- New.\n\n## 0.1.0 · 2026-01-02\n\n- Old.\n"
@@ -42,12 +42,6 @@ def test_version_and_citation_are_set_in_the_files_of_this_project():
     assert cited(once, "9.8.8", "2026-03-05").count("date-released") == 1
     with pytest.raises(ReleaseError, match="gives its version 0 times"):
         versioned("", "9.8.7")
-
-
-@pytest.mark.parametrize("text", ["", "1.2", "1.2.3.4", "v1.2.3", "1.2.3rc1", "01.2.3", "1.2.3\n"])
-def test_what_is_no_version_is_refused(text):
-    with pytest.raises(ReleaseError, match="three numbers were expected"):
-        checked_version(text)
 
 
 @pytest.fixture
@@ -99,10 +93,3 @@ def test_a_release_that_fails_leaves_the_tree_as_before(tree, monkeypatch, capsy
     assert (git(tree, "rev-parse", "HEAD"), git(tree, "status", "--porcelain"), git(tree, "tag")) == (before, "", "")
     assert (tree / "CHANGELOG.md").read_text(encoding="utf-8") == CHANGELOG
     assert not (tree / "dist").exists()
-
-
-def test_a_tree_with_changes_is_not_released(tree):
-    (tree / "CHANGELOG.md").write_text("changed", encoding="utf-8")
-    with pytest.raises(ReleaseError, match="Commit them first"):
-        release.release("0.2.0", [sys.executable], FITS)
-    assert (tree / "CHANGELOG.md").read_text(encoding="utf-8") == "changed"

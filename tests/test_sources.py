@@ -5,7 +5,6 @@ import shutil
 import pytest
 
 from colonnade import sources
-from colonnade.dynamics.models import MODELS
 from colonnade.sources import code_hash, package_hash
 
 pytestmark = pytest.mark.whole
@@ -94,20 +93,3 @@ def test_a_template_a_script_or_a_style_changes_the_code_of_the_pages_alone(pack
         pages.append(of_pages())
     assert len({*pages}) == 4
     assert of("rocking") == rocking
-
-
-def test_a_change_in_a_reader_makes_no_prediction_anew(package):
-    before = {stage: of(stage) for stage in ("rocking", "restitution", "contact", "predict", "ensemble")}
-    for path in (package / "readers").rglob("*.py"):
-        path.open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
-    forget()
-    assert {stage: of(stage) for stage in before} == before
-
-
-def test_an_engine_counts_unless_its_models_are_left_out(package):
-    others = [MODELS["linear"].engine]
-    linear, contact = of("predict"), of("predict", without=others)
-    (package / "dynamics/plane/arc.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
-    forget()
-    assert of("predict") != linear
-    assert of("predict", without=others) == contact

@@ -9,7 +9,6 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import colonnade
 from colonnade.assessment.measures import MEASURES, intensity_measures, measure_of
 from colonnade.dynamics.motion import Motion
 from every import every
@@ -98,12 +97,6 @@ def test_a_motion_of_no_use_has_reasons_and_no_error(values):
     assert all(math.isfinite(value) != (name in measured.reasons) for name, value in measured.values.items())
     assert all(reason.startswith("the motion is at rest") for reason in measured.reasons.values())
     assert measured.reasons
-
-
-def test_the_result_is_shown_with_units():
-    shown = repr(colonnade.intensity_measures(SINE, measures=["pga", "sa(0.5 s)"]))
-    assert shown.startswith("<IntensityMeasures: PGA 3 m/s², Sa(0.5 s) ")
-    assert shown.endswith(" m/s²>")
 
 
 @every(

@@ -57,22 +57,6 @@ def test_the_sides_of_a_column_keep_their_proportions():
     assert positive - negative == pytest.approx(0.02)
 
 
-@pytest.mark.parametrize(
-    ("changed", "message"),
-    [
-        ({"restitution_range": (0.97, 0.93)}, "restitution_range goes from 0.97 to 0.93"),
-        ({"restitution_range": (0.93, 1.01)}, "restitution_range is 1.01"),
-        ({"critical_angle_range": (0.0, 0.2)}, "critical_angle_range is 0"),
-        ({"p_range": (-1.0, 1.0)}, "p_range is -1"),
-        ({"friction": -0.1}, "friction is -0.1"),
-        ({"restitution": 1.5}, "restitution is 1.5"),
-    ],
-)
-def test_what_no_column_can_be_is_refused(changed, message):
-    with pytest.raises(ValueError, match=message):
-        replace(COLUMN, **changed)
-
-
 TIME = np.arange(0.0, 6.0, 0.01)
 WAVE = np.where(TIME < 1.0, np.sin(2 * np.pi * TIME), 0.0)
 

@@ -21,8 +21,6 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.march import propagate
 from colonnade.dynamics.plane.run import forcing_of
 from colonnade.dynamics.plane.sides import sides_of
-from colonnade.workflow.assessing import outcomes_of
-from colonnade.workflow.executors import Where
 
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
 COLUMN = RealColumn(BLOCK, 0.95, restitution_range=(0.93, 0.97), critical_angle_range=(0.16, 0.2), p_range=(1.2, 1.5))
@@ -123,27 +121,3 @@ def test_a_million_histories_take_little_more_than_the_kernels_own_time(tmp_path
     assert ratio <= 1.3
     assert found["elapsed"] <= 720.0
     assert found["memory"] < 1e9
-
-
-def test_two_workers_of_a_cluster_are_as_quick_as_two_processes(tmp_path, capsys):
-    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
-    cases = _cases(10, 10, 300)
-    outcomes = {}
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
-    ) as cluster:
-        ways = {"processes": {"workers": 2}, "Dask": {"scheduler": cluster.scheduler_address}}
-        seconds = {name: [] for name in ways}
-        for turn in range(4):
-            for name, way in ways.items():
-                begin = time.perf_counter()
-                outcomes[name] = outcomes_of(cases, Where(**way), tmp_path / f"{name}{turn}", "key")
-                seconds[name].append(time.perf_counter() - begin)
-    np.testing.assert_array_equal(outcomes["processes"].peak_ratio, outcomes["Dask"].peak_ratio)
-    best = {name: min(each[1:]) for name, each in seconds.items()}
-    with capsys.disabled():
-        print(
-            f"\n{math.prod(cases.shape):,} histories: "
-            + ", ".join(f"{name} {each:.1f} s" for name, each in best.items())
-        )
-    assert best["Dask"] <= 1.15 * best["processes"]

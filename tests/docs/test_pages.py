@@ -65,13 +65,6 @@ def test_each_number_is_given_once_and_a_missing_one_is_accounted_for():
     assert [name for name, text in DECIDED.items() if not text.startswith(f"# {int(name[:4])} · ")] == []
 
 
-def test_a_reversed_decision_and_the_page_that_reverses_it_lead_to_each_other():
-    pattern = r"[Rr]everses \[decision \d+\]\(([^)]+)\)"
-    reversals = [(name, old) for name, text in DECIDED.items() for old in re.findall(pattern, text)]
-    assert reversals
-    assert [(new, old) for new, old in reversals if f"({new})" not in DECIDED[old]] == []
-
-
 TUTORIAL = PROJECT / "docs" / "tutorial"
 LARGEST = 150_000
 """Bytes of a picture."""

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from colonnade.campaign import Channel, load
+from colonnade.campaign import Channel
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.programme import PRISM as PRISMS_FILE
 from colonnade.laboratory.table import STEP, Imperfections, measure, ramped_sine, recorded, sense, still
 from colonnade.readers.motion import el_centro
 from every import every
@@ -130,13 +129,3 @@ def test_gain_and_offset_give_the_physical_value_back():
     assert volts[0] * 0.015 - 0.00013 == pytest.approx(0.05, abs=3e-6)
     direct = transducer(unit="mm", gain=None, range="100 mm")
     assert measure(np.array([0.05]), direct, PERFECT, np.random.default_rng(5))[0] == pytest.approx(50.0, abs=2e-3)
-
-
-def test_no_transducer_on_the_prism_reaches_its_range_before_the_catch():
-    setup = load(PRISMS_FILE).setups["table"]
-    assert setup.catch / PRISM.critical_angle == pytest.approx(1.5, rel=0.02)
-    angle = np.linspace(-setup.catch, setup.catch, 101)
-    for channel in (setup.channels["top"], setup.channels["bottom"]):
-        read = sense(channel, PRISM, still(), np.zeros(angle.size), angle)
-        # Its zero may be off by 2 % of the range; much more room than that would waste resolution.
-        assert 0.5 < np.abs(read).max() / channel.full_scale < 0.97

@@ -40,17 +40,6 @@ def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
     assert after.theta == pytest.approx(side * risen, rel=2e-3)
 
 
-def test_a_mirrored_push_gives_a_mirrored_history():
-    time = np.linspace(0.0, 2.0, 101)
-    runs = []
-    for sign in (1.0, -1.0):
-        runs.append(running(sign * 0.3 * ALPHA, 0.0, time=time))
-        runs[-1].go(0.0, 2.0, lambda instant, sign=sign: sign * 1.2 * sin(8 * instant))
-    assert runs[0].impact_times
-    np.testing.assert_allclose(runs[1].angle, -runs[0].angle, atol=1e-12)
-    np.testing.assert_allclose(runs[1].impact_velocities, -np.array(runs[0].impact_velocities), atol=1e-12)
-
-
 def test_an_arc_shorter_than_a_look_has_its_impact():
     risen = 1e-7  # of α: below the rule of rest, which holds after an impact only
     velocity = P * (2 * risen * ALPHA * sin(ALPHA)) ** 0.5

@@ -60,29 +60,6 @@ def test_a_test_is_part_of_the_pages_of_its_kind(started, test, has_span, has_fr
         assert part.kept.free_vibration.e
 
 
-def test_a_page_is_known_by_all_of_the_campaign_that_it_shows(started, tmp_path):
-    campaign, layout = started
-    predict = campaign.processing.predict.model_copy(update={"models": ("linear",)})
-    processing = campaign.processing.model_copy(update={"predict": predict})
-    one = asked(campaign, layout, "later")
-    known = [
-        one,
-        asked(campaign, layout, "watched"),
-        asked(campaign, layout, "later", {"later"}),
-        asked(campaign.but(tests={"later": campaign.tests["later"]}), layout, "later"),
-        asked(campaign, layout, SHAKEN),
-        asked(campaign, Layout(tmp_path), SHAKEN),
-        *(
-            asked(campaign.but(**changes), layout, "later")
-            for changes in ({"title": "Another"}, {"gravity": 9.8}, {"processing": processing})
-        ),
-    ]
-    assert len({each.shows for each in known}) == len(known)
-    moved = shutil.copytree(layout.folder, tmp_path / "moved")
-    shutil.rmtree(Layout(moved).test("free-01"))
-    assert asked(load(moved), Layout(moved), "later").shows == one.shows
-
-
 def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign):
     shaken, free = (part_of(*filled_campaign, test)[1] for test in (SHAKEN, "free-01"))
     for name, curve in span_of(read_of_test(*filled_campaign, SHAKEN)).panel.curves.items():

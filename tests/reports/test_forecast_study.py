@@ -5,7 +5,7 @@ import pytest
 
 import forecast_study
 from colonnade.identification.forecasts import randomised_pit
-from forecast_study import FEWEST_CAMPAIGNS, MAIN, score_difference
+from forecast_study import MAIN, score_difference
 from forecast_trial import WRONG, run_campaign
 
 
@@ -66,15 +66,3 @@ def test_an_interval_over_few_skewed_campaigns_holds_the_truth_nearly_as_often_a
         )
         held += found.low <= 0 <= found.high
     assert 0.86 < held / 300 < 0.99
-
-
-@pytest.mark.parametrize(
-    ("campaigns", "said"),
-    [
-        pytest.param(np.arange(FEWEST_CAMPAIGNS - 1), "5 campaigns; at least 6", id="too few campaigns"),
-        pytest.param(np.arange(3), "campaigns has shape", id="not one for each test"),
-    ],
-)
-def test_an_interval_that_cannot_be_had_is_refused(campaigns, said):
-    with pytest.raises(ValueError, match=said):
-        score_difference(np.zeros(FEWEST_CAMPAIGNS - 1), np.zeros(FEWEST_CAMPAIGNS - 1), campaigns)

@@ -5,14 +5,11 @@ import json
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import rebuild
 import study
 
 KEPT = sorted(path for path in study.HERE.rglob("*.json"))
-PLAIN = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=50)
 
 
 @pytest.mark.parametrize("path", KEPT, ids=lambda path: path.name)
@@ -28,14 +25,6 @@ def test_the_page_of_a_study_is_made_from_its_numbers(name):
     found = json.loads(numbers.read_text(encoding="utf-8"))
     assert page.read_text(encoding="utf-8") == made_by.page(found, figure.name)
     assert made_by.draw is None or figure.read_text(encoding="utf-8").startswith("<svg")
-
-
-@pytest.mark.whole
-@given(st.recursive(PLAIN, lambda inner: st.lists(inner, max_size=9) | st.dictionaries(st.text(), inner, max_size=9)))
-def test_numbers_are_read_as_they_were_written(tmp_path_factory, numbers):
-    path = tmp_path_factory.getbasetemp() / "numbers.json"
-    study.write_numbers(path, numbers)
-    assert json.loads(path.read_text(encoding="utf-8")) == numbers
 
 
 def test_a_part_of_a_page_is_replaced_between_its_marks():

@@ -46,13 +46,6 @@ def test_a_refused_test_is_left_out_and_keeps_its_reason():
     assert found.attrs["warnings"] == []
 
 
-@pytest.mark.parametrize(("count", "words"), [(1, "1 free vibration"), (2, "2 free vibrations")])
-def test_the_method_names_that_of_the_tests_and_their_number(count, words):
-    found = specimen({f"free-{number}": identified(0.93, method="peaks") for number in range(count)}, inputs())
-    assert found.attrs["method"] == f"peaks; random effects over {words}"
-    assert found.attrs["restitution_source"] == "identified"
-
-
 @pytest.mark.parametrize(("given_e", "sides"), [(0.9, [0.9, 0.9]), ((0.9, 0.8), [0.9, 0.8])])
 def test_a_given_e_comes_first_and_what_was_identified_is_kept(given_e, sides):
     found = specimen({"a": identified(0.93), "b": refused("no arc")}, inputs(given_e))
