@@ -205,7 +205,9 @@ def test_computed_maps_are_drawn_with_the_tests_and_a_failed_one_is_not(rows, fi
     )
     attributes = {"stage": "map", "settings": json.dumps(chart.options)}
     files.write_failed(layout.stage("prism", "map", "linear"), "no", attributes=attributes)
-    files.write(as_dataset(chart), layout.stage("prism", "map", "nonlinear"), attributes=attributes)
+    files.write(
+        as_dataset(vars(chart), chart.options), layout.stage("prism", "map", "nonlinear"), attributes=attributes
+    )
     drawn = picture("map", with_records(campaign, layout, with_another(rows, 5.0)))
     assert "nonlinear: lower limit" in drawn.svg
     assert ">linear: lower limit" not in drawn.svg

@@ -28,26 +28,6 @@ def sine(frequency_ratio, amplitude_ratio):
     return MapPoint("sine-01", frequency_ratio, amplitude_ratio, "rocking")
 
 
-def test_what_is_stored_of_a_wish_is_read_back():
-    all_given = Wanted(
-        **{"models": ("nonlinear",), "omega": (2.0, 5.0), "amplitude": (0.8, 2.0), "points": (6, 10)},
-        **{"cycles": 5.0, "phase": 1.5, "ramp": 2.0},
-    )
-    for wanted in (Wanted(), all_given):
-        assert Wanted.of(wanted.text(), wanted.models[0]) == wanted
-
-
-def test_other_models_and_responses_are_not_part_of_what_a_map_was_asked_for():
-    assert changed(FEW, models=("linear", "contact"), responses=True).text() == FEW.text()
-    assert changed(FEW, phase=1.0).text() != FEW.text()
-
-
-@pytest.mark.parametrize("text", ["{", "[]", '{"frequency_ratio": null}', '{"cycle": 1}'])
-def test_a_wish_that_was_altered_is_refused(text):
-    with pytest.raises((ValueError, TypeError, KeyError)):
-        Wanted.of(text, "linear")
-
-
 def test_without_sine_tests_the_axes_are_the_usual_ones(untouched):
     plan = planned(untouched)
     assert (plan.frequency_ratio[0], plan.frequency_ratio[-1]) == plans.USUAL_FREQUENCIES

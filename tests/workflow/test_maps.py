@@ -10,12 +10,13 @@ from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.maps import MapPlan, stability_map, steady_response
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store import files
+from colonnade.store.records.stored import as_map, as_response
 from colonnade.store.results import ResultId
 from colonnade.workflow import maps as plans
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.maps import SETTLING, Wanted, as_map, as_response, kept_maps, make_maps
+from colonnade.workflow.maps import SETTLING, Wanted, kept_maps, make_maps
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk
 from every import every

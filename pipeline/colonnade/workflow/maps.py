@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from math import radians
@@ -18,35 +19,39 @@ from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.forms.summary import Summary
 from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
 from colonnade.campaign.syntax.table import Table
-from colonnade.dynamics.block import Sided, pair
+from colonnade.dynamics.block import Sided
 from colonnade.dynamics.models import MODELS, NONLINEAR
 from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint, makes_map
+from colonnade.stages.predict import sides
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
-from colonnade.store.records.stored import as_dataset, as_map
+from colonnade.store.records.stored import as_dataset, as_map, as_response
 from colonnade.store.records.summary import map_points, read_summary
 from colonnade.store.results import ResultId, models_moving
 from colonnade.workflow.executors import HERE, Arrays, Run, Where, blocks_of
 from colonnade.workflow.graph import Graph, expect_known, restitution_taken
-from colonnade.workflow.product import Product, stored_attributes
+from colonnade.workflow.product import Product, read_done, stored_attributes
 from colonnade.workflow.walk import Walk, walking
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from colonnade.dynamics.contact.body import InSpace
-    from colonnade.dynamics.maps import MapPlan, SteadyResponse
+    from colonnade.dynamics.maps import MapPlan
 
 MADE_BY = ("colonnade.dynamics.maps", "colonnade.workflow.maps")
 """Modules whose code makes maps and steady responses; what they import counts too."""
 
 ASKED = "asked_for"
-"""Attribute of a map that was asked for with options of its own: these."""
+"""Attribute of a map: the options that it was asked for with."""
 
 SETTLING = 400
 """Cycles at full amplitude before a response is looked at."""
+
+OF_MAPS = ("cycles", "width", "edge", "scan_step", "no_rocking_ratio")
+"""Options of a map on which steady responses do not depend."""
 
 USUAL_FREQUENCIES = (1.0, 8.0)
 """Ω of a map of a specimen without sine tests."""
@@ -79,15 +84,6 @@ class Wanted(Table):
     """Cycles of the linear rise, and of the fall."""
     responses: bool = False
     """Also compute the orders and amplitudes of the steady responses, with curves."""
-
-    def text(self) -> str:
-        """Write what a map of one model is asked for with, as it is stored with the map."""
-        return self.model_dump_json(exclude={"models", "responses"})
-
-    @classmethod
-    def of(cls, text: str, model: str) -> Wanted:
-        """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
-        return cls(models=(model,), **json.loads(text))
 
 
 class Measured(NamedTuple):
@@ -173,7 +169,7 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
     ----------
     graph : Graph
     summary : Summary
-        Records of tests and specimens: the maps have to include their sine tests, and use their e.
+        Records of tests and specimens: the maps have to include their sine tests.
     specimens : sequence of str
         Ids of those that may have a map.
 
@@ -184,56 +180,49 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
         up to date with its specimen.
     """
     for specimen in specimens:
-        points, restitution = map_points(summary.tests, specimen), summary.specimens[specimen].restitution
-        if not makes_map(points) or restitution.value is None:
+        e = summary.specimens[specimen].restitution.value
+        if e is None or not makes_map(map_points(summary.tests, specimen)):
             continue
+        measured = _measured(graph, summary, specimen)
         for model in models_moving(graph.campaign, specimen, graph.campaign.processing.predict.models):
             if MODELS[model].in_space:
                 continue
-            measured = Measured(points, pair(restitution.value), restitution.source)
-            _, usual = _map(graph, specimen, Wanted(models=(model,)), model, measured)
-            stored = stored_attributes(usual.paths[0])
-            try:
-                _, asked = _map(graph, specimen, Wanted.of(stored[ASKED], model), model, measured)
-            except (KeyError, ValueError, TypeError, CampaignError):
-                yield usual
-            else:
-                yield usual if asked.why(stored_attributes) else asked
+            asked = usual = _product(graph, specimen, Wanted(), model, measured)
+            with suppress(KeyError, ValueError, TypeError, CampaignError):
+                wanted = Wanted.model_validate_json(stored_attributes(usual.paths[0])[ASKED])
+                asked = _product(graph, specimen, wanted, model, measured)
+            yield usual if asked.why(stored_attributes) else asked
+
+
+def _measured(graph: Graph, summary: Summary | None, specimen: str) -> Measured:
+    pooled = restitution_taken(graph.campaign, graph.layout, specimen)
+    points = [] if summary is None else map_points(summary.tests, specimen)
+    return Measured(points, sides(pooled), str(pooled.attrs["restitution_source"]))
 
 
 def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> Iterator[MapMade]:
     """Make the maps and responses of one specimen, by each model, and one picture of its maps."""
-    from colonnade.figures.maps import response_orders
+    from colonnade.figures.maps.response_orders import computed, responses
 
     graph, layout, models = walk.graph, walk.graph.layout, list(dict.fromkeys(wanted.models))
-    summary = read_summary(layout)
-    points = [] if summary is None else map_points(summary.tests, specimen)
-    pooled = restitution_taken(graph.campaign, layout, specimen)
-    negative, positive = (float(e) for e in pooled["side_restitution"])
-    measured = Measured(points, (negative, positive), str(pooled.attrs["restitution_source"]))
+    measured = _measured(graph, read_summary(layout), specimen)
+    made = partial(MapMade, specimen, restitution_source=measured.source, measured=len(measured.points))
     together, charts = layout.figure(ResultId(specimen, "map", "+".join(models))), []
     for model in models:
-        plan, product = _map(graph, specimen, wanted, model, measured, walk.where)
-        stored, because = _brought(walk, product)
-        charts.append(as_map(stored))
-        yield MapMade(specimen, model, "map", product.paths[0], together, measured.source, len(points), because)
-        if wanted.responses:
-            asked = _responses(graph, specimen, plan, measured.source, walk.where)
-            steady, because = _brought(walk, asked)
-            figure = layout.figure(asked.result)
-            drawn = response_orders.responses(specimen, as_response(steady), points, _settings(plan))
-            files.write_text(figure, drawn.svg)
-            yield MapMade(specimen, model, "responses", asked.paths[0], figure, measured.source, len(points), because)
-    files.write_text(together, response_orders.computed(specimen, charts, points).svg)
-
-
-def _brought(walk: Walk, product: Product) -> tuple[xr.Dataset, str]:
-    """Bring one map or the responses up to date here; give it, and why it was made."""
-    walk.follow([[product]])
-    made = walk.stages[-1]
-    if made.action == "failed":
-        raise StoreError(made.reason)
-    return files.read(product.paths[0]), made.because
+        for kind in ("map", "responses") if wanted.responses else ("map",):
+            product, figure = _product(graph, specimen, wanted, model, measured, kind, walk.where), together
+            walk.follow([[product]])
+            if walk.stages[-1].action == "failed":
+                raise StoreError(walk.stages[-1].reason)
+            stored = files.read(product.paths[0])
+            if kind == "map":
+                charts.append(as_map(stored))
+            else:
+                figure = layout.figure(product.result)
+                drawn = responses(specimen, as_response(stored), measured.points, json.loads(stored.attrs["settings"]))
+                files.write_text(figure, drawn.svg)
+            yield made(model, kind, product.paths[0], figure, because=walk.stages[-1].because)
+    files.write_text(together, computed(specimen, charts, measured.points).svg)
 
 
 def plan_of(
@@ -291,9 +280,8 @@ def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
     whole, settings = campaign.specimens[specimen], campaign.processing.predict.contact
     if isinstance(whole, Whole):
         return InSpace(whole.assembly(campaign.gravity), contact.assembly_law(settings))
-    path = layout.stage(specimen, "contact")
-    law = files.read(path) if path.is_file() else None
-    if law is None or law.attrs["status"] != "done":
+    law = read_done(layout.stage(specimen, "contact"))
+    if law is None:
         raise CampaignError(f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first.")
     own = contact.law_of(law)
     return InSpace(contact.body_of(contact.ContactInputs.of(campaign, specimen), own), own, settings.step)
@@ -306,90 +294,42 @@ def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float,
     return float(np.floor(9 * min(values)) / 10), float(np.ceil(11 * max(values)) / 10)
 
 
-def _map(
-    graph: Graph, specimen: str, wanted: Wanted, model: str, measured: Measured, where: Where | None = None
-) -> tuple[MapPlan, Product]:
-    """Plan a map, made in blocks or, without `where`, in one."""
+def _product(
+    graph: Graph,
+    specimen: str,
+    wanted: Wanted,
+    model: str,
+    measured: Measured,
+    kind: str = "map",
+    where: Where | None = None,
+) -> Product:
+    """Plan a map or the steady responses on its axes, made in blocks or, without `where`, in one."""
     plan = plan_of(graph.campaign, graph.layout, specimen, wanted, model, measured)
-    asked = {} if wanted.text() == Wanted().text() else {ASKED: wanted.text()}
-    work = partial(_in_blocks, _columns, _chart, plan, {"restitution_source": measured.source, **asked})
-    options = Options(plan.options)
-    return plan, graph.product(ResultId(specimen, "map", model), options, _given(plan), work, *MADE_BY, where=where)
-
-
-def _responses(graph: Graph, specimen: str, plan: MapPlan, source: str, where: Where) -> Product:
-    """Plan steady responses: of the plan, its block, axes, model, restitution and sine, with `SETTLING` cycles."""
-    work = partial(_in_blocks, _steady_columns, _steady, plan, {"restitution_source": source})
-    result, options = ResultId(specimen, "responses", plan.model), Options(_settings(plan))
-    return graph.product(result, options, _given(plan), work, *MADE_BY, where=where)
+    attributes, options = {"restitution_source": measured.source}, Options(plan.options)
+    if kind == "map":
+        attributes[ASKED] = wanted.model_dump_json(exclude={"models", "responses"})
+    else:
+        kept = {name: each for name, each in plan.options.items() if name not in OF_MAPS}
+        options = Options(kept | {"settling": SETTLING})
+    axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
+    given = {"block": hash_of(repr(plan.block)), "axes": hash_of(axes)}
+    work = partial(_in_blocks, kind, plan, attributes)
+    return graph.product(ResultId(specimen, kind, model), options, given, work, *MADE_BY, where=where)
 
 
 def _in_blocks(
-    columns: Callable[[MapPlan, range], Arrays],
-    make: Callable[[MapPlan, Arrays], xr.Dataset],
-    plan: MapPlan,
-    attributes: Mapping[str, str],
-    *,
-    inputs: Options,
-    run: Run | None = None,
+    kind: str, plan: MapPlan, attributes: dict[str, str], *, inputs: Options, run: Run | None = None
 ) -> xr.Dataset:
     """Make a result over Ω and A of blocks of Ω, or at once."""
-    size = plan.frequency_ratio.size
-    blocks = [columns(plan, range(size))] if run is None else run(partial(columns, plan), blocks_of(size))
+    columns, size = partial(_columns, kind, plan), plan.frequency_ratio.size
+    blocks = [columns(range(size))] if run is None else run(columns, blocks_of(size))
     joined = {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
-    return make(plan, joined).assign_attrs(attributes)
+    return as_dataset(joined | {"amplitude_ratio": plan.amplitude_ratio}, inputs.root | attributes)
 
 
-def _given(plan: MapPlan) -> dict[str, str | None]:
-    """Hash what a map is made from besides its options: block and axes."""
-    axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
-    return {"block": hash_of(repr(plan.block)), "axes": hash_of(axes)}
+def _columns(kind: str, plan: MapPlan, indices: range) -> Arrays:
+    """Work of a block: a map or responses at some Ω, as arrays over Ω."""
+    from colonnade.dynamics.maps import map_part, steady_response
 
-
-def _columns(plan: MapPlan, indices: range) -> Arrays:
-    """Work of a block: some columns of a map, as arrays over Ω."""
-    from colonnade.dynamics.maps import map_part
-
-    chart = map_part(plan, indices)
-    return {name: each for name, each in vars(chart).items() if name not in ("amplitude_ratio", "options")}
-
-
-def _chart(plan: MapPlan, joined: Arrays) -> xr.Dataset:
-    from colonnade.dynamics.maps import StabilityMap
-
-    return as_dataset(StabilityMap(amplitude_ratio=plan.amplitude_ratio, options=plan.options, **joined))
-
-
-STEADY = {"order": "steady_order", "amplitude": "steady_peak_ratio"}
-"""What steady responses are, and the variable of each in their result."""
-
-
-def as_response(stored: xr.Dataset) -> SteadyResponse:
-    """Return stored responses as the library gives them."""
-    from colonnade.dynamics.maps import SteadyResponse
-
-    axes = (stored[name].to_numpy() for name in ("frequency_ratio", "amplitude_ratio"))
-    return SteadyResponse(*axes, **{own: stored[name].to_numpy() for own, name in STEADY.items()})
-
-
-def _settings(plan: MapPlan) -> dict[str, Any]:
-    """All that the responses depend on apart from block and axes, by the names of a map's options."""
-    kept = ("model", "phase", "ramp", "rest_angle", "critical_angle", "p")
-    own = {name: each for name, each in plan.options.items() if name in kept or name.startswith("restitution_")}
-    return own | {"settling": SETTLING}
-
-
-def _steady_columns(plan: MapPlan, indices: range) -> Arrays:
-    """Work of a block: the responses at some Ω, as arrays."""
-    from colonnade.dynamics.maps import steady_response
-
-    response = steady_response(plan, indices, SETTLING)
-    return {name: getattr(response, own) for own, name in STEADY.items()}
-
-
-def _steady(plan: MapPlan, joined: Arrays) -> xr.Dataset:
-    import xarray as xr
-
-    coordinates = {"frequency_ratio": plan.frequency_ratio, "amplitude_ratio": plan.amplitude_ratio}
-    variables = {name: (tuple(coordinates), each) for name, each in joined.items()}
-    return xr.Dataset(variables, coordinates, _settings(plan))
+    found = map_part(plan, indices) if kind == "map" else steady_response(plan, indices, SETTLING)
+    return {name: each for name, each in vars(found).items() if name not in ("amplitude_ratio", "options")}

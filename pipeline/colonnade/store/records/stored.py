@@ -23,7 +23,7 @@ from colonnade.store.results import ResultId, results_of
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.maps import StabilityMap
+    from colonnade.dynamics.maps import StabilityMap, SteadyResponse
 
 Made = tuple[str, str | None]
 """Stage that made a result and, if the stage runs once for each model, the model."""
@@ -245,30 +245,42 @@ def _settings(stored: object) -> Mapping[str, Any]:
 _AXES = ("frequency_ratio", "amplitude_ratio")
 
 _OVER = {
-    **dict.fromkeys(("outcome", "overturning_fraction"), _AXES),
+    **dict.fromkeys(("outcome", "overturning_fraction", "order", "amplitude"), _AXES),
     **dict.fromkeys(("no_rocking", "lower", "upper"), "frequency_ratio"),
     **dict.fromkeys(("interval_frequency_ratio", "interval_start", "interval_end"), "interval"),
 }
-"""Fields of a map with the dimensions that each is stored over."""
+"""Fields of maps and steady responses with the dimensions that each is stored over."""
 
-_LIMITS = {name: f"{name}_limit" for name in ("no_rocking", "lower", "upper")}
+_NAMES = {
+    **{name: f"{name}_limit" for name in ("no_rocking", "lower", "upper")},
+    "order": "steady_order",
+    "amplitude": "steady_peak_ratio",
+}
 """Fields that are stored under another name."""
 
 
-def as_dataset(chart: StabilityMap) -> xr.Dataset:
-    """Return a map in its stored form: outcomes over Ω and A, limits over Ω, the options as attributes."""
+def as_dataset(found: Mapping[str, Any], options: Mapping[str, Any]) -> xr.Dataset:
+    """Return the fields of a map or of steady responses in their stored form, the options as attributes."""
     import xarray as xr
 
-    return xr.Dataset(
-        {_LIMITS.get(name, name): (over, getattr(chart, name)) for name, over in _OVER.items()},
-        coords={name: getattr(chart, name) for name in _AXES},
-        attrs=chart.options,
-    )
+    variables = {_NAMES.get(name, name): (over, found[name]) for name, over in _OVER.items() if name in found}
+    return xr.Dataset(variables, {name: found[name] for name in _AXES}, options)
 
 
 def as_map(stored: xr.Dataset) -> StabilityMap:
     """Return a stored map as the library gives it."""
     from colonnade.dynamics.maps import StabilityMap
 
-    values = {name: stored[_LIMITS.get(name, name)].to_numpy() for name in (*_OVER, *_AXES)}
-    return StabilityMap(**values, options=json.loads(stored.attrs["settings"]))
+    return StabilityMap(**_fields(stored), options=json.loads(stored.attrs["settings"]))
+
+
+def as_response(stored: xr.Dataset) -> SteadyResponse:
+    """Return stored responses as the library gives them."""
+    from colonnade.dynamics.maps import SteadyResponse
+
+    return SteadyResponse(**_fields(stored))
+
+
+def _fields(stored: xr.Dataset) -> dict[str, Any]:
+    names = {name: _NAMES.get(name, name) for name in (*_OVER, *_AXES)}
+    return {name: stored[kept].to_numpy() for name, kept in names.items() if kept in stored}
