@@ -7,7 +7,6 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.assessment import Prototype
 from colonnade.errors import CampaignError
-from colonnade.stages.assessment_plan import real_column
 from colonnade.store.layout import Layout
 from colonnade.workflow.real_column import find_column
 from every import every
@@ -23,7 +22,7 @@ def found(campaign, is_real=False, **options):
     """Column and source of its e."""
     layout = None if campaign is None else Layout(campaign.folder)
     asked = find_column(options, campaign, layout, is_real=is_real)
-    return real_column(asked.inputs, asked.pooled)
+    return asked.real, asked.source
 
 
 def test_a_specimen_stands_for_itself_with_the_e_of_its_predictions(campaign):
@@ -101,11 +100,14 @@ def refuse(campaign, options, words):
         ({"width": "1 m", "height": "5 m"}, "The column is not known. Give --shape"),
         ({"shape": "prism", "width": "1", "height": "5 m"}, '--width: "1" has no unit'),
         ({"shape": "prism", "width": "1 m"}, "--height: It is missing"),
-        ({"shape": "prism", "width": "1 m", "height": "5 m", "specimen": "prism"}, "Leave --specimen"),
+        ({"shape": "prism", "width": "1 m", "height": "5 m", "specimen": "prism"}, "leave those options out"),
         ({}, "The column is not known"),
-        ({"specimen": "prism"}, "give CAMPAIGN and --specimen"),
+        ({"specimen": "prism"}, "are for a specimen of a CAMPAIGN"),
         ({"critical_angle": "0.2 rad", "p": "2 rad/s", "scale": 2.0}, "--scale and"),
-        ({"critical_angle": "0.2 rad", "p": "2 rad/s", "restitution": "identified"}, "give CAMPAIGN and --specimen"),
+        (
+            {"critical_angle": "0.2 rad", "p": "2 rad/s", "restitution": "identified"},
+            "are for a specimen of a CAMPAIGN",
+        ),
         ({"critical_angle": "2 rad", "p": "2 rad/s"}, "The column cannot be"),
         ({"critical_angle": "0.2", "p": "2 rad/s"}, "--critical-angle: "),
         ({"critical_angle": "0.2 rad", "p": "2 m"}, "--p: "),

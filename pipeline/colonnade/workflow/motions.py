@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from colonnade import units
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, nearest
 from colonnade.findings import Finding
 from colonnade.store.layout import Layout
+from colonnade.units.text import quantity
 from colonnade.workflow.product import read_done
 
 
@@ -84,32 +84,26 @@ def motion_asked_for(
             return found
     folders = [Path()] if campaign is None else [Path(), campaign.folder]
     path = next((folder / name for folder in folders if (folder / name).is_file()), None)
-    if path is not None and by_shape:
-        return AskedMotion(name, "a file, by its shape", read_motion(path, unit="m/s^2"), is_shape=True)
-    if path is not None:
-        return AskedMotion(name, f"file {path.name}", read_motion(path, **reading))
-    if campaign is None:
-        raise CampaignError(f"--motion {name}: there is no such file and no campaign.")
-    raise CampaignError(
-        f'There is no motion "{name}".{nearest(name, [*campaign.tests, *reference_files(campaign)])} A test that '
-        "recorded one, a motion that tests name, a reference motion of [motions] or a file was expected."
-    )
+    if path is None:
+        known = [] if campaign is None else [*campaign.tests, *reference_files(campaign)]
+        raise CampaignError(
+            f'There is no motion "{name}".{nearest(name, known)} A file was expected or, of a campaign, a test that '
+            "recorded one, a motion that tests name, or a reference motion of [motions]."
+        )
+    source, how = ("a file, by its shape", {"unit": "m/s^2"}) if by_shape else (f"file {path.name}", reading)
+    return AskedMotion(name, source, read_motion(path, **how), is_shape=by_shape)
 
 
 def _strongest(campaign: Campaign, layout: Layout, name: str) -> AskedMotion | None:
     """Return what the test of this id recorded, or of those with this motion the one whose table moved most."""
-    if name in campaign.tests:
-        tests = [campaign.tests[name]]
-    else:
-        tests = [test for test in campaign.tests.values() if test.motion == name]
+    tests = [test for test in campaign.tests.values() if name in (test.id, test.motion)]
     found = [(test, motion) for test in tests if (motion := recorded(layout, test)) is not None]
-    if not found:
-        if name in campaign.tests:
-            raise CampaignError(f"{name}: its table motion is not known. Run `colonnade run` first.")
-        return None
-    test, motion = max(found, key=lambda pair: pair[1].peak)
-    source = f"recorded in {test.id}, peak {motion.peak / units.factor_to_si('g', 'acceleration'):.3g} g"
-    return AskedMotion(name, source, motion, test)
+    if found:
+        test, motion = max(found, key=lambda pair: pair[1].peak)
+        return AskedMotion(name, f"recorded in {test.id}, peak {quantity(motion.peak, 'g')}", motion, test)
+    if name in campaign.tests:
+        raise CampaignError(f"{name}: its table motion is not known. Run `colonnade run` first.")
+    return None
 
 
 def recorded(layout: Layout, test: Test) -> Motion | None:

@@ -20,7 +20,7 @@ from colonnade.dynamics.spectra import rectangular
 from colonnade.errors import CampaignError
 from colonnade.stages.assessment_plan import ColumnInputs, real_column
 from colonnade.store.layout import Layout
-from colonnade.units.text import acceleration, quantity
+from colonnade.units.text import acceleration, number, quantity
 from colonnade.workflow.graph import one_specimen, restitution_taken
 
 if TYPE_CHECKING:
@@ -30,6 +30,9 @@ Asked = TypeVar("Asked", bound=Table)
 
 IDENTIFIED, RIGID_BODY = "identified", "rigid-body"
 """Words for e in place of its value."""
+
+OWN = "column"
+"""Name of a column that is no specimen, and of a question of one's own."""
 
 SIZES = ("shape", *OUTER_DIMENSIONS)
 """Keys of [specimens.<id>] by which a column is given that is no specimen."""
@@ -54,8 +57,7 @@ class Which(Table):
 
 def needs_specimen(given: Given) -> bool:
     """Whether a column is not said by its sizes, or by α and p, alone."""
-    is_said = bool(given.keys() & set(SIZES)) or {"critical_angle", "p"} <= given.keys()
-    return "specimen" in given or not is_said
+    return not given.keys() & set(SIZES) and ("specimen" in given or not {"critical_angle", "p"} <= given.keys())
 
 
 @dataclass(frozen=True)
@@ -85,38 +87,30 @@ class FoundColumn:
     source: str
 
     @property
-    def block(self) -> Block:
-        """Of the column."""
-        return self.real.block
-
-    @property
     def restitution(self) -> tuple[float, float]:
         """e of impacts that end an arc at θ < 0, and at θ > 0."""
         return pair(self.real.restitution)
 
-    @property
-    def name(self) -> str:
-        """What it is, in words."""
-        scale = self.inputs.scale
-        if self.specimen is None:
-            return f"α = {self.block.critical_angle:.4g} rad, p = {self.block.p:.4g} rad/s"
-        return self.specimen if scale == 1.0 else f"{self.specimen}, {scale:g} times larger"
-
     def fields(self) -> list[tuple[str, str]]:
         """Write what it is."""
-        negative, positive = self.restitution
-        e = f"{negative:.4g}" if negative == positive else f"{negative:.4g} | {positive:.4g}"
+        e, block = " | ".join(dict.fromkeys(number(each, 4) for each in self.restitution)), self.real.block
         return [
             ("column", self.name),
-            ("critical angle α", quantity(self.block.critical_angle, "rad", 4)),
-            ("p", quantity(self.block.p, "rad/s", 4)),
-            ("uplift from", acceleration(self.block.uplift_acceleration)),
+            ("critical angle α", quantity(block.critical_angle, "rad", 4)),
+            ("p", quantity(block.p, "rad/s", 4)),
+            ("uplift from", acceleration(block.uplift_acceleration)),
             ("restitution e", f"{e} ({self.source})"),
         ]
 
+    @property
+    def name(self) -> str:
+        """Which it is, in words."""
+        scale = self.inputs.scale
+        return (self.specimen or OWN) + (f", {scale:g} times larger" if scale != 1.0 else "")
+
     def record(self) -> dict[str, Any]:
         """Give it for programs, SI."""
-        of_block = {key: getattr(self.block, key) for key in ("critical_angle", "p", "uplift_acceleration")}
+        of_block = {key: getattr(self.real.block, key) for key in ("critical_angle", "p", "uplift_acceleration")}
         return {"name": self.name, **of_block, "restitution": self.restitution, "restitution_source": self.source}
 
 
@@ -141,36 +135,30 @@ def find_column(
     CampaignError
         If it is not said which, an option is out of its range, or the e of a real column is not said.
     """
-    which = picked(Which, given)
-    if which.specimen is not None and given.keys() & set(SIZES):
-        raise CampaignError(
-            "--shape and its sizes are for a column that is not a specimen. Leave --specimen and --name out."
-        )
+    which, name = picked(Which, given), None
     try:
         if campaign is None or layout is None or not needs_specimen(given):
             inputs, pooled = _without_specimen(which, given)
-            return FoundColumn(None, inputs, pooled, which.scale, *real_column(inputs, pooled))
-        name = one_specimen(campaign, which.specimen)
-        inputs, pooled = _of_specimen(campaign, name, which, given, is_real), restitution_taken(campaign, layout, name)
-        has_own_size = which.scale is None and "p" in given
-        scale = None if has_own_size else inputs.scale
-        return FoundColumn(name, inputs, pooled, scale, *real_column(inputs, pooled))
+        else:
+            name = one_specimen(campaign, which.specimen)
+            inputs = _of_specimen(campaign, name, which, given, is_real)
+            pooled = restitution_taken(campaign, layout, name)
+        real, source = real_column(inputs, pooled)
     except ValueError as error:
         raise CampaignError(f"The column cannot be: {error}.") from None
+    has_own_size = which.scale is None and (name is None or "p" in given)
+    return FoundColumn(name, inputs, pooled, None if has_own_size else inputs.scale, real, source)
 
 
 def _of_specimen(campaign: Campaign, name: str, which: Which, given: Given, is_real: bool) -> ColumnInputs:
-    known, written = campaign.specimens[name], {"restitution": IDENTIFIED}
+    known = campaign.specimens[name]
     scale = which.scale or (known.scale if is_real else None) or 1.0
     if is_real or scale != 1.0 or {"critical_angle", "p"} & given.keys():
-        own = campaign.prototype.get(name)
-        written = {} if own is None else own.model_dump(exclude_none=True)
-    return ColumnInputs(
-        block=known.block(campaign.gravity),
-        scale=scale,
-        prototype=_prototype(written, given),
-        usual_scatter=campaign.processing.predict.ensemble.restitution,
-    )
+        prototype = _prototype(campaign.prototype.get(name), given)
+    else:
+        prototype = _prototype(None, {"restitution": IDENTIFIED} | dict(given))
+    usual = campaign.processing.predict.ensemble.restitution
+    return ColumnInputs(block=known.block(campaign.gravity), scale=scale, prototype=prototype, usual_scatter=usual)
 
 
 def _without_specimen(which: Which, given: Given) -> tuple[ColumnInputs, xr.Dataset]:
@@ -178,10 +166,10 @@ def _without_specimen(which: Which, given: Given) -> tuple[ColumnInputs, xr.Data
 
     if which.specimen is not None or which.scale not in (None, 1.0) or given.get("restitution") == IDENTIFIED:
         raise CampaignError(
-            "--specimen, --scale and --restitution identified are for a specimen: give CAMPAIGN and --specimen. Sizes, "
-            "or --critical-angle and --p, are of the real column."
+            "--specimen, --name, --scale and --restitution identified are for a specimen of a CAMPAIGN. Sizes, or "
+            "--critical-angle and --p, are of a column that is none: leave those options out."
         )
-    prototype = _prototype({"restitution": RIGID_BODY}, given)
+    prototype = _prototype(None, {"restitution": RIGID_BODY} | dict(given))
     if "shape" in given:
         block = _sized({key: given[key] for key in SIZES if key in given})
     elif given.keys() & set(SIZES) or prototype.critical_angle is None or prototype.p is None:
@@ -202,18 +190,18 @@ def _sized(sizes: dict[str, Any]) -> Block:
     return checked(SIZED[sizes["shape"]], other | sizes).block(STANDARD_GRAVITY)
 
 
-def _prototype(written: Given, given: Given) -> Prototype:
+def _prototype(written: Prototype | None, given: Given) -> Prototype:
     """Put options over what a campaign says of the real column."""
     given = {key: given[key] for key in Prototype.model_fields if key in given}
-    # Limits of another value are none of this one.
-    written = {key: value for key, value in written.items() if key.removesuffix("_range") not in given}
-    if "restitution" not in {**written, **given}:
+    if written is None and "restitution" not in given:
         raise CampaignError(
             'The e of the real column is not given. Add --restitution: a number, "rigid-body", or "identified" to '
             "assume that of the model."
         )
-    new = checked(Prototype, {"restitution": written.get("restitution"), **given})
-    return new.model_copy(update={key: value for key, value in written.items() if key not in given})
+    new = checked(Prototype, {"restitution": RIGID_BODY} | given)
+    # Limits of another value are none of this one.
+    others = dict.fromkeys(key for key in Prototype.model_fields if key.removesuffix("_range") in given)
+    return (written or new).model_copy(update=others | {key: getattr(new, key) for key in given})
 
 
 def checked(model: type[Asked], written: Given) -> Asked:

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from colonnade.assessment.ground import NONE, correction_of
-from colonnade.assessment.measures import IntensityMeasures, intensity_measures, measure_of
+from colonnade.assessment.measures import intensity_measures, measure_of
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessment import Baseline
 from colonnade.campaign.syntax.fields import Duration, Limits, MapPoints, MapRatio, OneOf, Quantity
 from colonnade.campaign.syntax.table import Problems, Table
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.models import NONLINEAR, PLANE_MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.pulses import PULSES, OverturningSpectrum, overturning_spectrum
@@ -25,6 +24,7 @@ from colonnade.dynamics.search import WIDTH
 from colonnade.dynamics.spectra import RockingSpectrum, rocking_spectrum
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
+from colonnade.store.records.assessment import level
 from colonnade.units.text import NOTHING, acceleration, number, quantity, ratio
 from colonnade.workflow.motions import motion_asked_for
 from colonnade.workflow.real_column import FoundColumn, Given, find_column
@@ -37,14 +37,6 @@ REACH = 4.0
 
 FREQUENCIES = (0.5, 8.0)
 """Ω of an overturning spectrum."""
-
-
-ONLY_FOR = {
-    "--motion": ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods"),
-    "--pulse": ("omega", "cycles", "phase", "largest", "least_width"),
-    "--pulse mavroeidis-papageorgiou": ("cycles", "phase"),
-}
-"""Options that say nothing without another, and are then refused."""
 
 
 class AskedSpectrum(Table):
@@ -86,15 +78,9 @@ class AskedSpectrum(Table):
     """In A: narrower intervals are islands, not limits."""
 
     def contradictions(self) -> Problems:
-        """Say that it is not of one thing, or which option is not for it."""
+        """Say that it is not of one thing."""
         if (self.motion is None) == (self.pulse is None):
             yield (), "Give either --motion or --pulse."
-            return
-        of = ("--motion",) if self.pulse is None else ("--pulse", f"--pulse {self.pulse}")
-        for other, keys in ONLY_FOR.items():
-            for key in keys:
-                if other not in of and key in self.model_fields_set:
-                    yield (), f"--{key.replace('_', '-')} is only for {other}."
 
 
 Row = tuple[str, ...]
@@ -156,7 +142,7 @@ def spectrum_of(asked: AskedSpectrum, given: Given, campaign: Campaign | None, l
 
 def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: str, is_table: bool) -> Answer:
     """Answer by rectangular blocks over their size, the slenderness of the column first."""
-    block, own = column.block, 2 * pi / column.block.p
+    block, own = column.real.block, 2 * pi / column.real.block.p
     spectrum = rocking_spectrum(
         motion,
         critical_angle=[block.critical_angle, *asked.slenderness],
@@ -170,10 +156,15 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
     peak = history.peak_ratio
     rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
     drift = f"the velocity drifts by {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"
-    sizes = [_size(spectrum, *place) for place in np.ndindex(spectrum.overturned.shape)]
-
-    angles = ", ".join(f"{angle:.4g}" for angle in spectrum.critical_angle)
-    seen = f"Largest angle over the size of blocks with α = {angles} rad."
+    angles = [f"α = {quantity(float(angle), 'rad', 4)}" for angle in spectrum.critical_angle]
+    sizes = [
+        (quantity(float(period), "s"), *("overturned" if np.isnan(each) else ratio(float(each)) for each in peaks))
+        for period, peaks in zip(spectrum.period, spectrum.peak_ratio.T, strict=True)
+    ]
+    measured = [
+        (each.name, each.symbol, level(each.id, value), measures.reasons.get(each.id, "").partition(":")[0])
+        for each, value in zip(map(measure_of, measures.values), measures.values.values(), strict=True)
+    ]
     return Answer(
         f"The column {'overturns' if history.outcome == 'overturned' else rocks} ({history.model} model).",
         [
@@ -181,10 +172,7 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
             ("motion", f"{source}; {motion.duration:.4g} s in steps of {motion.dt:.4g} s"),
             ("drift", drift),
         ],
-        [
-            (("measure", "symbol", "value", "why not"), [_measured(measures, name) for name in measures.values]),
-            (("α", "2π/p", "p", "outcome", "largest |θ|/α"), sizes),
-        ],
+        [(("measure", "symbol", "value", "why not"), measured), (("2π/p", *angles), sizes)],
         {
             "column": column.record(),
             "motion": {"source": source, "interval": motion.dt, "duration": motion.duration},
@@ -193,39 +181,23 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
             "spectrum": spectrum,
             "measures": measures,
         },
-        partial(_picture, "rocking_spectrum", spectrum, f"Rocking spectrum: {source}", seen, period=own, title=source),
+        partial(_picture, spectrum, f"Rocking spectrum: {source}", period=own, title=source),
     )
 
 
-def _picture(name: str, spectrum: object, heading: str, seen: str, **how: Any) -> Picture:
+def _picture(spectrum: RockingSpectrum | OverturningSpectrum, heading: str, **how: Any) -> Picture:
     from colonnade.figures.files.output import Picture
-    from colonnade.figures.maps import stability_map
+    from colonnade.figures.maps.stability_map import overturning_spectrum, rocking_spectrum
 
-    return Picture(getattr(stability_map, name)(spectrum, **how), name.replace("_", "-"), heading, seen)
-
-
-def _measured(measures: IntensityMeasures, name: str) -> Row:
-    each, value = measure_of(name), measures.values[name]
-    shown = f"{number(value)} {each.unit}".rstrip() if isfinite(value) else NOTHING
-    why_not = measures.reasons.get(name, "").partition(":")[0]
-    return each.name, each.symbol, acceleration(value) if each.dimension == "acceleration" else shown, why_not
-
-
-def _size(spectrum: RockingSpectrum, *place: int) -> Row:
-    """Write what the motion does to blocks of one slenderness and size."""
-    period, peak = float(spectrum.period[place[1]]), float(spectrum.peak_ratio[place])
-    return (
-        quantity(float(spectrum.critical_angle[place[0]]), "rad", 4),
-        quantity(period, "s"),
-        quantity(2 * pi / period, "rad/s"),
-        "overturned" if spectrum.overturned[place] else "rocking" if peak > 0.0 else "no-rocking",
-        ratio(peak),
-    )
+    if isinstance(spectrum, RockingSpectrum):
+        return Picture(rocking_spectrum(spectrum, **how), "rocking-spectrum", heading, "Largest angle over size.")
+    figure = overturning_spectrum(spectrum)
+    return Picture(figure, "overturning-spectrum", heading, "Lower and upper limit over frequency.")
 
 
 def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
     """Answer by the limits of the pulses over their frequency."""
-    kind, block = PULSES[str(asked.pulse)], column.block
+    kind, block = PULSES[str(asked.pulse)], column.real.block
     spectrum = overturning_spectrum(
         block,
         kind.name,
@@ -237,19 +209,23 @@ def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
         largest=asked.largest,
         width=asked.least_width,
     )
+
+    def limit(level: float) -> str:
+        return f"{number(level, 5)}, {acceleration(level * block.uplift_acceleration)}" if isfinite(level) else NOTHING
+
     shape = f"; γ = {asked.cycles:g}, ν = {radians(asked.phase):.3g} rad" if "cycles" in spectrum.options else ""
     verdict = f"No {kind.name} pulse up to A = {asked.largest:g} overturns the column ({asked.model} model)."
+    limits = np.column_stack([spectrum.frequency_ratio, spectrum.lower, spectrum.upper]).tolist()
     if np.isfinite(spectrum.lower).any():
-        least = int(np.nanargmin(spectrum.lower))
-        level = float(spectrum.lower[least])
+        omega, lower, _ = limits[int(np.nanargmin(spectrum.lower))]
         verdict = (
-            f"The least {kind.name} pulse that overturns the column has A = {number(level)}, "
-            f"{acceleration(level * block.uplift_acceleration)}, at Ω = "
-            f"{number(float(spectrum.frequency_ratio[least]))} ({asked.model} model)."
+            f"The least {kind.name} pulse that overturns the column has A = {limit(lower)}, at Ω = {number(omega)} "
+            f"({asked.model} model)."
         )
-    heads = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
-
-    seen = f"{column.name}: lower and upper limit over frequency."
+    rows = [
+        (number(omega), quantity(omega * block.p / (2 * pi), "Hz"), limit(lower), limit(upper))
+        for omega, lower, upper in limits
+    ]
     return Answer(
         verdict,
         [
@@ -257,23 +233,9 @@ def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
             ("pulse", f"{kind.name}: {kind.definition}, φ = ω t{shape} ({kind.source})"),
             ("limits", f"of intervals at least {asked.least_width:g} wide in A, up to A = {asked.largest:g}"),
         ],
-        [(heads, [_limits(spectrum, block, place) for place in range(spectrum.lower.size)])],
+        [(("Ω", "frequency", "lower limit A", "upper limit A"), rows)],
         {"column": column.record(), "spectrum": spectrum},
-        partial(_picture, "overturning_spectrum", spectrum, f"Overturning spectrum: {kind.name}", seen),
-    )
-
-
-def _limits(spectrum: OverturningSpectrum, block: Block, place: int) -> Row:
-    """Write the limits at one frequency."""
-    omega, lower, upper = (float(each[place]) for each in (spectrum.frequency_ratio, spectrum.lower, spectrum.upper))
-    return (
-        number(omega),
-        quantity(omega * block.p / (2 * pi), "Hz"),
-        number(lower, 5),
-        acceleration(lower * block.uplift_acceleration),
-        number(upper, 5),
-        acceleration(upper * block.uplift_acceleration),
-        str(int((spectrum.islands[:, 0] == omega).sum())),
+        partial(_picture, spectrum, f"Overturning spectrum: {kind.name}"),
     )
 
 
@@ -290,9 +252,9 @@ def _base(
     reading: dict[str, Any] = {"unit": asked.unit, "dt": asked.interval, "column": column}
     said = {key: value for key, value in reading.items() if value is not None}
     found = motion_asked_for(str(asked.motion), campaign, layout, **said)
+    source, base, dt = found.source, found.motion.acceleration, found.motion.dt
     if asked.peak is None and found.is_shape:
-        raise CampaignError(f'--motion {found.name}: it is {found.source}. Give its peak acceleration, --peak "0.3 g".')
-    source, dt = found.source, found.motion.dt
+        raise CampaignError(f'--motion {found.name}: it is {source}. Give its peak acceleration, --peak "0.3 g".')
     if found.test is not None and campaign is not None:
         own = found.test.specimen
         if not (scale := scale or campaign.specimens[own].scale):
@@ -304,11 +266,10 @@ def _base(
         if scale != 1.0:
             dt *= sqrt(scale)
             source = f"{source}, {number(sqrt(scale))} times slower for a column {scale:g} times larger"
-    factor = 1.0
     if asked.peak is not None:
-        factor, source = found.factor_to(asked.peak), f"{source}, brought to a peak of {quantity(asked.peak, 'g')}"
-    base, vertical = factor * found.motion.acceleration, found.motion.vertical
+        base = found.factor_to(asked.peak) * base
+        source = f"{source}, brought to a peak of {quantity(asked.peak, 'g')}"
     if asked.baseline != NONE:
-        source = f"{source}, baseline corrected: {asked.baseline}"
         base = correction_of(asked.baseline)(base, dt)
-    return Motion(base, dt, None if vertical is None else abs(factor) * vertical), source, found.test is not None
+        source = f"{source}, baseline corrected: {asked.baseline}"
+    return Motion(base, dt), source, found.test is not None
