@@ -15,7 +15,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.assessing import _given, assess, assess_campaign, outcomes_of
+from colonnade.workflow.assessing import _given, assess, outcomes_of
 from colonnade.workflow.executors import Where, in_blocks
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.run import run
@@ -92,11 +92,11 @@ def test_what_cannot_be_asked_is_refused(assessed, options, words):
 def test_assessments_of_the_campaign_are_brought_up_to_date(assessed_copy):
     campaign, layout = load(assessed_copy), Layout(assessed_copy)
     (layout.processed / "assessments" / "site.nc").unlink()
-    [found] = assess_campaign(campaign, layout, (), HERE)
+    [found] = assess(campaign, layout, (), {}, HERE)
     assert found.path is not None
     assert found.path.is_file()
     with pytest.raises(CampaignError, match='no assessment "sight"'):
-        assess_campaign(campaign, layout, ("sight",), HERE)
+        assess(campaign, layout, ("sight",), {}, HERE)
 
 
 def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed):

@@ -17,7 +17,7 @@ from colonnade.store.records.assessment import sentences
 from colonnade.store.records.test import record_of_specimen
 from colonnade.store.results import ResultId
 from colonnade.workflow.advising.next import advise_kind
-from colonnade.workflow.assessing import Where, assess_campaign
+from colonnade.workflow.assessing import Where, assess
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.check import check
 from colonnade.workflow.graph import one_specimen, restitution_taken
@@ -181,7 +181,7 @@ def test_a_real_column_of_several_bodies_is_assessed_by_the_contact_model(in_spa
         np.savetxt(in_space.folder / "records" / f"{frequency}.csv", rows, delimiter=",", header=head, comments="")
     campaign = load(in_space.folder)
     assert not check(campaign).failed
-    [found] = assess_campaign(campaign, in_space.layout, (), Where(workers=1))
+    [found] = assess(campaign, in_space.layout, (), {}, Where(workers=1))
     record = found.record
     assert (record.displaced, record.restitution.value, record.friction) == (0.05, None, 0.6)
     assert record.friction_range == pytest.approx((0.48, 0.72))

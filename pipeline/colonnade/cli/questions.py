@@ -318,4 +318,4 @@ def calibrate(
             stored.add(ResultId(each["specimen"], "contact"), each["path"])
             show_rows(law_facts(stored))
             say("law: {path}".format_map(each))
-    return int(any(each["restitution"] is None for each in made))
+    return int(any(each["path"] is None for each in made))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -23,7 +23,7 @@ from colonnade.store.results import ResultId
 from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Run, Where, in_blocks
 from colonnade.workflow.graph import FORMATS, Graph, expect_known
 from colonnade.workflow.product import Catalogue, Product
-from colonnade.workflow.real_column import Given, checked, find_column
+from colonnade.workflow.real_column import OWN, Given, checked, find_column
 from colonnade.workflow.summary import record_of_assessment
 from colonnade.workflow.walk import walking
 
@@ -36,9 +36,6 @@ if TYPE_CHECKING:
 MADE_BY = ("colonnade.stages.assessment", "colonnade.workflow.assessing")
 """Modules whose code makes assessments; what they import counts too."""
 
-OWN = "column"
-"""Name of a question of one's own."""
-
 
 @dataclass(frozen=True)
 class Assessed:
@@ -48,44 +45,6 @@ class Assessed:
     record: AssessmentSummary
     result: xr.Dataset | None
     path: Path | None = None
-
-
-def assess_campaign(campaign: Campaign, layout: Layout, names: Sequence[str], where: Where) -> list[Assessed]:
-    """
-    Bring assessments of a campaign up to date, with the e that is identified so far.
-
-    Parameters
-    ----------
-    campaign : Campaign
-    layout : Layout
-    names : sequence of str
-        Default all.
-    where : Where
-
-    Raises
-    ------
-    CampaignError
-        If the campaign has no such assessment, or none at all.
-    StoreError
-        If a run is in progress, or a result cannot be written.
-    """
-    expect_known(campaign, "assessment", names)
-    chosen = {name: campaign.assessments[name] for name in names or campaign.assessments}
-    if not chosen:
-        raise CampaignError(
-            f"{campaign.path.name} has no [assessments.<name>]. Add one, or ask with --specimen ID --records DIR."
-        )
-    with walking(campaign, layout, where) as walk:
-        walk.pool(sorted({asked.specimen for asked in chosen.values()}))
-        walk.assess(chosen)
-    failed = walk.failed["assessment"]
-    found = []
-    for name, asked in chosen.items():
-        record = record_of_assessment(layout, name, asked, failed.get(name, ""))
-        assert record is not None  # it was made or it failed
-        path = layout.stage(name, "assessment") if record.status == "done" else None
-        found.append(Assessed(name, record, None if path is None else files.read(path), path))
-    return found
 
 
 def assess(
@@ -99,8 +58,8 @@ def assess(
     campaign, layout : optional
         None without a campaign.
     names : sequence of str
-        Of assessments of the campaign; with options of the one, by default the only one, whose keys count if nothing
-        replaces them.
+        Of assessments of the campaign, by default all; with options of the one, by default the only one, whose keys
+        count if nothing replaces them.
     given : Given
         What says which column, by default that of the assessment, and keys of [assessments.<name>]; paths may be
         anywhere.
@@ -111,20 +70,38 @@ def assess(
     CampaignError
         If an option or a name is not usable, or something is missing.
     StoreError
-        As `assess_campaign`.
+        If a run is in progress, or a result cannot be written.
     ReadError, StageError
         If a question of one's own has no answer.
     """
-    if campaign is not None and layout is not None and not given:
-        return assess_campaign(campaign, layout, names, where)
-    if len(names) > 1:
-        raise CampaignError("Options are for one assessment. Name one.")
-    written: dict[str, Any] = {}
-    if campaign is not None:
+    known: dict[str, Assessment] = {}
+    if campaign is not None and layout is not None:
         expect_known(campaign, "assessment", names)
         known = {name: campaign.assessments[name] for name in names or campaign.assessments}
-        written = next(iter(known.values())).model_dump(exclude_none=True) if len(known) == 1 else {}
+        if not given:
+            return _of_campaign(campaign, layout, known, where)
+    if len(names) > 1:
+        raise CampaignError("Options are for one assessment. Name one.")
+    written = next(iter(known.values())).model_dump(exclude_none=True) if len(known) == 1 else {}
     return [_assess_own(campaign, layout, written, given, where)]
+
+
+def _of_campaign(campaign: Campaign, layout: Layout, chosen: Mapping[str, Assessment], where: Where) -> list[Assessed]:
+    """Bring assessments up to date, with the e that is identified so far."""
+    if not chosen:
+        raise CampaignError(
+            f"{campaign.path.name} has no [assessments.<name>]. Add one, or ask with --specimen ID --records DIR."
+        )
+    with walking(campaign, layout, where) as walk:
+        walk.pool(sorted({asked.specimen for asked in chosen.values()}))
+        walk.assess(chosen)
+    found = []
+    for name, asked in chosen.items():
+        record = record_of_assessment(layout, name, asked, walk.failed["assessment"].get(name, ""))
+        assert record is not None  # it was made or it failed
+        path = layout.stage(name, "assessment") if record.status == "done" else None
+        found.append(Assessed(name, record, None if path is None else files.read(path), path))
+    return found
 
 
 def _assess_own(

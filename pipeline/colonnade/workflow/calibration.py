@@ -15,15 +15,6 @@ from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import expect_known
 from colonnade.workflow.walk import walking
 
-NUMBERS = {
-    "step": "contact_step",
-    "target": "restitution",
-    "restitution": "contact_restitution",
-    "velocity_ratio": "contact_velocity_ratio",
-    "damping_fraction": "damping_fraction",
-}
-"""Numbers of a law, and the variable of each in its result."""
-
 
 def calibrate(
     campaign: Campaign, layout: Layout, specimens: Sequence[str] = (), workers: int | None = None
@@ -44,8 +35,8 @@ def calibrate(
     Returns
     -------
     laws : list of dict
-        Of each specimen its id, the mesh, why the calibration failed or missed its target, the source of the model's e
-        and `NUMBERS` (SI; None if it failed), and where the law, with all else, is stored.
+        Of each specimen its id, why the calibration failed or missed its target, where the law is stored (None if it
+        failed), and its numbers (SI) and the source of its e by their names there.
 
     Raises
     ------
@@ -55,13 +46,12 @@ def calibrate(
         If a run is in progress, or results cannot be written.
     """
     expect_known(campaign, "specimen", specimens)
-    blocks = {name: campaign.specimens[name] for name in campaign.of_interest}
-    chosen = list(specimens) or [name for name, each in blocks.items() if not each.is_assembly]
+    chosen = list(specimens) or [name for name in campaign.of_interest if not campaign.specimens[name].is_assembly]
     several = [name for name in chosen if campaign.specimens[name].is_assembly]
     if several or not chosen:
         raise CampaignError(
-            f"{listed(several or list(blocks))}: the contact of several bodies is not calibrated. They have the law of "
-            "the settings under processing.predict.contact."
+            f"{listed(several or campaign.of_interest)}: the contact of several bodies is not calibrated. They have "
+            "the law of the settings under processing.predict.contact."
         )
     with walking(campaign, layout, Where(workers)) as walk:
         for name in chosen:
@@ -69,15 +59,13 @@ def calibrate(
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
         walk.pool()
         walk.calibrate(chosen)
-    mesh, failed = campaign.processing.predict.contact.mesh, walk.failed["specimen"]
-    return [_law(name, mesh, layout.stage(name, "contact"), failed.get(name)) for name in chosen]
+    return [_law(name, layout.stage(name, "contact"), walk.failed["specimen"].get(name)) for name in chosen]
 
 
-def _law(specimen: str, mesh: object, path: Path, failure: str | None) -> dict[str, Any]:
-    found = {"specimen": specimen, "mesh": mesh, "reason": failure, "source": "", "path": None}
+def _law(specimen: str, path: Path, failure: str | None) -> dict[str, Any]:
     if failure is not None:
-        return found | dict.fromkeys(NUMBERS)
+        return {"specimen": specimen, "reason": failure, "path": None}
     law = files.read(path)
+    numbers = {str(name): float(each) for name, each in law.data_vars.items() if not each.ndim}
     said = {"reason": " ".join(map(str, law.attrs["warnings"])), "path": path}
-    numbers = {name: float(law[variable]) for name, variable in NUMBERS.items()}
-    return found | said | numbers | {"source": str(law.attrs["contact_restitution_source"])}
+    return {"specimen": specimen, **said, "source": law.attrs["contact_restitution_source"], **numbers}

@@ -12,14 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import colonnade
-from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms import forecast as forms
 from colonnade.campaign.syntax.fields import PLAIN, PositiveNumber, Quantity, Several, Text, outside
 from colonnade.campaign.syntax.table import Problems, Table
-from colonnade.dynamics.models import MODELS
+from colonnade.dynamics.models import PLANE_MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.errors import CampaignError, ReadError
+from colonnade.errors import CampaignError
 from colonnade.interruption import expect_none
 from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
@@ -30,7 +29,6 @@ from colonnade.workflow.motions import AskedMotion, motion_asked_for
 from colonnade.workflow.product import Catalogue, stored_attributes
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.ensemble import Ensemble
     from colonnade.dynamics.history import History
 
 MADE_BY = ("colonnade.workflow.foresee", "colonnade.workflow.motions", "colonnade.stages.forecast")
@@ -107,18 +105,12 @@ def foresee(
     name = one_specimen(campaign, asked.specimen or (None if own is None else own.specimen))
     if own is not None and own.specimen != name:
         raise CampaignError(f"{own.id} is a test of {own.specimen}, not of {name}.")
-    try:
-        base = motion_asked_for(asked.motion, campaign, layout, by_shape=True)
-    except ReadError as error:
-        raise CampaignError(
-            f"{error} A motion that needs options (interval, column, layout) can be entered in [motions] of "
-            f"{campaign.path.name}, and then given by its name."
-        ) from error
+    base = motion_asked_for(asked.motion, campaign, layout, by_shape=True)
     time_scale = asked.time_scale or _time_scale(own, base.test)
     factors = {level: factor_of(level, base) for level in asked.levels}
     setup = own or base.test
     tilt = (campaign.setups[setup.setup].table_tilt or 0.0) if setup is not None else 0.0
-    models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
+    models = [model for model in campaign.processing.predict.models if model in PLANE_MODELS]
     if not models:
         raise CampaignError(
             "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
@@ -260,39 +252,32 @@ def _by_model(inputs: forms.ForecastInputs, model: str, motion: Motion) -> forms
     from colonnade.stages.forecast import felt, plan_of
 
     shaken = felt(inputs, motion)
-    plan = plan_of(inputs, model, shaken)
-    members = plan.run()
-    expected = forecast_of(members.peak_ratio)
+    plan, reference = plan_of(inputs, model, shaken), plan_of(inputs, model, shaken, rigid_body=True)
+    peaks = plan.run().peak_ratio
+    expected = forecast_of(peaks)
     shares = {
         outcome.replace("-", "_"): float(np.mean(expected.outcomes == place)) for place, outcome in enumerate(OUTCOMES)
     }
-    half, most, widest = (_band(expected.amplitudes, band) for band in BANDS)
+    ends = [((1 - share) / 2, (1 + share) / 2) for share in BANDS]
+    bands = np.quantile(expected.amplitudes, ends, method="inverted_cdf").tolist()
+    half, most, widest = (
+        forms.ForecastBand(probability=share, low=low, high=high)
+        for share, (low, high) in zip(BANDS, bands, strict=True)
+    )
     return forms.ModelForecast(
         **shares,
         bands=(half, most, widest),
         required_friction=_friction(plan.central(), shaken),
-        peak_ratio=_peaks(members),
-        rigid_body_peak_ratio=_peaks(plan_of(inputs, model, shaken, rigid_body=True).run()),
+        peak_ratio=tuple(map(_known, peaks.tolist())),
+        rigid_body_peak_ratio=tuple(map(_known, reference.run().peak_ratio.tolist())),
     )
-
-
-def _band(amplitudes: Array, probability: float) -> forms.ForecastBand:
-    ends = [(1 - probability) / 2, (1 + probability) / 2]
-    low, high = np.quantile(amplitudes, ends, method="inverted_cdf")
-    return forms.ForecastBand(probability=probability, low=float(low), high=float(high))
 
 
 def _friction(history: History, motion: Motion) -> float | None:
     from colonnade.dynamics.plane.reactions import reactions
 
-    fall = history.overturning_time
-    required = reactions(history, motion).required_friction
-    return _known(float(np.nanmax(required[history.time <= (fall if np.isfinite(fall) else np.inf)])))
-
-
-def _peaks(members: Ensemble) -> tuple[float | None, ...]:
-    stands = ~np.isfinite(members.overturning_time)
-    return tuple(float(peak) if stood else None for peak, stood in zip(members.peak_ratio, stands, strict=True))
+    required, has_fallen = reactions(history, motion).required_friction, history.time > history.overturning_time
+    return _known(float(np.nanmax(required[~has_fallen])))
 
 
 def _known(value: float) -> float | None:

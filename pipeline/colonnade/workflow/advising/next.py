@@ -167,7 +167,7 @@ def advise_free(
     of = "1, for that record alone" if len(names) == 1 else str(len(names))
     e, half = advised.pooled.value, advised.half_width
     known = f"e {interval(e, e - half, e + half)} from {of}"
-    after = format_uncertain(advised.pooled.value, float(advised.predicted_half_width[0]))
+    after = format_uncertain(e, float(advised.predicted_half_width[0]))
     advice = Advice(
         specimen=specimen,
         kind="free-vibration",
@@ -175,12 +175,6 @@ def advise_free(
         is_enough=advised.is_enough,
         reason=known + (", as narrow as wanted" if advised.is_enough else f"; one more test: about {after}"),
         left=advised.needed,
-        values={
-            "restitution": advised.pooled.value,
-            "half_width": advised.half_width,
-            "half_width_after": float(advised.predicted_half_width[0]),
-            "release_ratio": LARGEST_RELEASE,
-        },
     )
     return [advice]
 

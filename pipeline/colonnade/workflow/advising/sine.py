@@ -16,7 +16,7 @@ from colonnade.campaign.forms.forecast import ForecastInputs
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import stability_map
-from colonnade.dynamics.models import MODELS
+from colonnade.dynamics.models import PLANE_MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.identification.advice import SpanAdvice, advise_span
 from colonnade.identification.boundary import SineAdvice, SineTests, advise_sine_tests
@@ -96,7 +96,7 @@ def advise_sines(
 
 def _model(campaign: Campaign) -> str | None:
     """Name the model that tests are advised by: the last one in the plane."""
-    in_plane = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
+    in_plane = [model for model in campaign.processing.predict.models if model in PLANE_MODELS]
     return in_plane[-1] if in_plane else None
 
 
@@ -114,8 +114,8 @@ def _limits(block: Block, tilt: float, ratios: Array, model: str, restitution: A
 
 def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice, model: str) -> Advice:
     """Write the advice at one frequency."""
-    frequency = ratio * block.p / (2 * pi)
-    acceleration = advised.amplitude_ratio * block.gravity * tan(block.critical_angle)
+    frequency, amplitude = ratio * block.p / (2 * pi), advised.amplitude_ratio
+    acceleration = amplitude * block.gravity * tan(block.critical_angle)
     demand = demand_of_sine(acceleration, frequency)
     low, high = advised.boundary.interval
     known = (
@@ -125,7 +125,7 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
     return Advice(
         specimen=specimen,
         kind="sine",
-        test=f"{number(frequency)} Hz at {quantity(acceleration, 'g')} (A {number(advised.amplitude_ratio)})",
+        test=f"{number(frequency)} Hz at {quantity(acceleration, 'g')} (A {number(amplitude)})",
         is_enough=advised.is_enough,
         reason=f"{known}, as narrow as wanted" if advised.is_enough else known,
         risk=advised.risk,
@@ -135,11 +135,7 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
         values={
             "frequency": frequency,
             "frequency_ratio": ratio,
-            "amplitude_ratio": advised.amplitude_ratio,
-            "boundary": float(advised.boundary.quantiles(0.5)),
-            "boundary_low": low,
-            "boundary_high": high,
-            "predicted_boundary": advised.boundary.tests.predicted,
+            "amplitude_ratio": amplitude,
             "bits": advised.information,
         },
     )
