@@ -106,7 +106,7 @@ class FoundColumn:
     def name(self) -> str:
         """Which it is, in words."""
         scale = self.inputs.scale
-        return (self.specimen or OWN) + (f", {scale:g} times larger" if scale != 1.0 else "")
+        return (self.specimen or "as given") + (f", {scale:g} times larger" if scale != 1.0 else "")
 
     def record(self) -> dict[str, Any]:
         """Give it for programs, SI."""

@@ -156,7 +156,7 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
     peak = history.peak_ratio
     rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
     drift = f"the velocity drifts by {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"
-    angles = [f"α = {quantity(float(angle), 'rad', 4)}" for angle in spectrum.critical_angle]
+    angles = [f"largest |θ|/α, α = {quantity(float(angle), 'rad', 4)}" for angle in spectrum.critical_angle]
     sizes = [
         (quantity(float(period), "s"), *("overturned" if np.isnan(each) else ratio(float(each)) for each in peaks))
         for period, peaks in zip(spectrum.period, spectrum.peak_ratio.T, strict=True)
