@@ -18,8 +18,8 @@ def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report
     head, first, second, legend, specimen, agreement, *_ = told.stdout.splitlines()
     assert head.split() == ["test", "measured", "nonlinear", "linear", "findings"]
     identified = r"e 0\.9[45]\d+ ± 0\.0+\d{1,2}"
-    assert re.fullmatch(rf"free-01  {identified} +\S+ [✓≠] +\S+ [✓≠].*", first)
-    assert re.fullmatch(rf"free-02  {identified} +\S+ [✓≠] +\S+ [✓≠].*", second)
+    assert re.fullmatch(rf"free-01  {identified} +\S+ α [✓≠] +\S+ α [✓≠].*", first)
+    assert re.fullmatch(rf"free-02  {identified} +\S+ α [✓≠] +\S+ α [✓≠].*", second)
     assert legend.startswith("✓ history inside the 95 % band")
     assert re.fullmatch(rf"specimen prism  {identified}, identified from 2 free vibrations", specimen)
     assert agreement.startswith("The linear model predicts the outcome of 2 of 2 tests.")

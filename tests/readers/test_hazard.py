@@ -20,6 +20,7 @@ def read(tmp_path, text, measure="pgv"):
     ("text", "measure", "factor"),
     [
         ("pgv [cm/s],rate [1/year]\n1,0.1\n2,0.01\n", "pgv", 0.01),
+        ("pgv (cm/s),rate (1/year)\n1,0.1\n2,0.01\n", "pgv", 0.01),
         ("PGV [m/s];Rate\n1;0,1\n2;0,01\n", "pgv", 1.0),
         ("Sa(0.5 s) [g],rate\n1,0.1\n2,0.01\n", "sa(0.5 s)", 9.80665),
         ("# site 1\npga [m/s²],rate [1/year]\n\n1,0.1\n2,0.01\n", "pga", 1.0),

@@ -137,7 +137,7 @@ def _draw_history(axes: Axes, channel: Channel) -> None:
     axes.margins(y=0.08)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]))
     axes.set_ylabel(channel.unit)
-    note(axes, channel.name, (0.0, 1.02), xycoords="axes fraction", va="bottom", weight="bold")
+    axes.set_title(channel.name, loc="left", fontsize=8, weight="bold", pad=2)
     if channel.recorded is not None:
         _draw_recorded(axes, channel.recorded)
 

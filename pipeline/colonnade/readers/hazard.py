@@ -48,7 +48,7 @@ def read_hazard(path: Path, measure: str) -> Hazard:
         found = units.resolve(intensity.unit or "1")
     except UnitError as error:
         raise ReadError(f"{table.name}: {error}") from None
-    is_rate = rate.name.casefold() == "rate" and rate.unit in (None, "1/year")
+    is_rate = _same(rate.name) in ("rate", "rate(1/year)") and rate.unit in (None, "1/year")
     if not is_rate or found.si_unit != units.resolve(known.unit).si_unit:
         raise ReadError(wrong)
     values = np.array([_number(table, line, cell) for line, cells in table.rows for cell in cells]).reshape(-1, 2)

@@ -39,15 +39,29 @@ def test_every_drawn_line_is_in_the_table_with_all_its_samples(curves, names):
     for values, name in zip(curves, names, strict=False):
         draw_curve(axes, Curve(np.arange(values.size) / 8, values), label=name)
     table = table_of(axes.figure)
-    columns = [np.asarray(column) for heading, column in table.items() if heading.startswith("slide (mm)")]
-    assert len(columns) == len(curves)
-    for column, values in zip(columns, curves, strict=True):
-        np.testing.assert_array_equal(column, values)
+    columns = {tuple(column) for heading, column in table.items() if heading.startswith("slide (mm)")}
+    assert columns == {tuple(values) for values in curves}
     longest = max(map(np.size, curves))
     written = list(csv.reader(io.StringIO(to_csv(axes.figure))))
     assert len(written) == 1 + longest
     assert {len(row) for row in written} == {len(table)}
     assert not any(cell.startswith(("=", "+", "@")) for cell in written[0])
+
+
+def test_a_title_above_several_panels_is_of_all_of_them_and_a_curve_in_two_is_there_once():
+    figure = Figure()
+    for title, time, panels in zip("ab", ([0.0, 1.0], [0.0, 2.0]), figure.subplots(2, 2), strict=True):
+        panels[0].set_title(title, loc="left")
+        for axes, model in zip(panels, ("linear", "nonlinear"), strict=True):
+            axes.set(xlabel="time (s)", ylabel="angle")
+            axes.plot(time, [1.0, 2.0], label="measured")
+            axes.plot(time, [3.0, 4.0], label=model)
+    assert list(table_of(figure)) == [
+        "time (s)",
+        *(f"a, angle, {name}" for name in ("measured", "linear", "nonlinear")),
+        "time (s), b",
+        *(f"b, angle, {name}" for name in ("measured", "linear", "nonlinear")),
+    ]
 
 
 def test_a_gap_is_an_empty_cell_and_a_shorter_column_ends():

@@ -32,9 +32,12 @@ def test_what_is_known_is_said_with_units_and_intervals():
         five_percent=Estimate(value=2.0, high=2.4),
         fifty_percent=Estimate(value=4.0, low=3.5, high=4.5),
         curve="lognormal",
+        annual_rate=Estimate(value=0.0021, low=0.001, high=0.004),
+        probability_50_years=Estimate(value=0.1, low=0.05, high=0.2),
         variants=(PLAIN, Variant(name="the e of a rigid body", restitution=0.95, median=Estimate(value=4.4))),
     )
     text = said(record)
+    assert text.startswith("Within 50 years it overturns with a probability of 10 % (5 % to 20 %): with the hazard")
     assert "rock at 0.189 g" in text
     assert "5 % at PGA 0.204 g (below 0.245 g), and of 50 % at PGA 0.408 g (0.357 to 0.459)" in text
     assert "0.418 g with nothing varied (e 0.976), with the e of a rigid body (0.95) 0.449 g" in text

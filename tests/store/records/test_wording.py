@@ -17,9 +17,9 @@ def shaken(outcome, peak, **predicted):
 @pytest.mark.parametrize(
     ("predicted", "said"),
     [
-        (("rocking", 0.275, 0.95), "0.275 ✓"),  # 0.95: the last rank inside the 95 % band
-        (("rocking", 0.275, 0.96), "0.275 ≠"),
-        (("rocking", 0.275, None), "0.275"),
+        (("rocking", 0.275, 0.95), "0.275 α ✓"),  # 0.95: the last rank inside the 95 % band
+        (("rocking", 0.275, 0.96), "0.275 α ≠"),
+        (("rocking", 0.275, None), "0.275 α"),
         (("overturned", None, 0.5), "overturned ≠"),
         (("overturned", None, None), "overturned ≠"),
         (("no-rocking", 0.0, 0.5), "no rocking ≠"),
@@ -31,7 +31,7 @@ def test_a_prediction_is_right_inside_the_band_wrong_outside_or_of_another_outco
 
 def test_what_another_outcome_than_rocking_was_predicted_is_named_with_its_peak():
     test = shaken("overturned", None, linear=("rocking", 0.8, 0.2), nonlinear=("overturned", None, 0.2))
-    assert list(wording.predicted(test).items()) == [("nonlinear", "overturned ✓"), ("linear", "rocking 0.800 ≠")]
+    assert list(wording.predicted(test).items()) == [("nonlinear", "overturned ✓"), ("linear", "rocking 0.800 α ≠")]
     assert wording.predicted(shaken("rocking", 0.281, linear=(None, None, None))) == {}
 
 

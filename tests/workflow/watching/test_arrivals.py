@@ -62,7 +62,7 @@ def line(**given):
 def test_a_sine_says_its_place_on_the_map():
     predicted = {"linear": PredictionSummary(outcome="rocking", peak_ratio=0.44), "contact": PredictionSummary()}
     sine = {"peak_ratio": 0.412, "frequency_ratio": 4.463, "amplitude_ratio": 2.1, "predicted": predicted}
-    peaks = "sine-07: rocking 0.412 α; linear 0.440; Ω 4.46, A 2.1"
+    peaks = "sine-07: rocking 0.412 α; linear 0.440 α; Ω 4.46, A 2.1"
     assert line(**sine).text() == peaks
 
 

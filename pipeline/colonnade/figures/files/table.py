@@ -76,11 +76,11 @@ def columns_of(figure: Figure) -> Columns:
     {'time (s)': array([0., 1.]), 'slide (mm), measured': array([2., 3.])}
     """
     table: Columns = {}
-    titles = {_title(axes) for axes in figure.axes}
+    several = len({_title(axes) for axes in figure.axes}) > 1  # else it tells no panel from another
+    title = ""
     for axes in figure.axes:
-        labels, found = _labels(axes), list(_series_of(axes))
-        if len(titles) == 1:  # it tells no panel from another
-            labels = labels._replace(title="")
+        title = _title(axes) or title  # one above several panels is of all of them
+        labels, found = _labels(axes, title if several else ""), list(_series_of(axes))
         single = [each for each in found if each.is_single]
         if len(single) > 1:
             _add_rows(table, labels, single)
@@ -93,16 +93,19 @@ def columns_of(figure: Figure) -> Columns:
 def _add(table: Columns, labels: _Labels, series: _Series) -> None:
     if labels.across is not None:
         for ending, values in series.across.items():
-            heading = _joined(labels.across, "" if series.up else series.name, ending)
-            if heading not in table:
-                table[heading] = values
-            elif not np.array_equal(np.asarray(table[heading]), values, equal_nan=True):
-                table[_free(table, _joined(heading, labels.title, series.name))] = values
+            own = _joined(labels.across, "" if series.up else series.name, ending)
+            _put(table, values, own, _joined(own, labels.title), _joined(own, labels.title, series.name))
     if labels.up is not None:
         for ending, values in series.up.items():
-            table[_free(table, _joined(labels.title, labels.up, series.name, ending))] = values
+            _put(table, values, _joined(labels.title, labels.up, series.name, ending))
     for heading, values in series.others.items():
         table[_free(table, _joined(labels.title, heading))] = values
+
+
+def _put(table: Columns, values: Array, *headings: str) -> None:
+    """Add a column under the first of these headings that is free, unless one of them has it already."""
+    fitting = (each for each in headings if each not in table or np.array_equal(table[each], values, equal_nan=True))
+    table[next(fitting, None) or _free(table, headings[-1])] = values
 
 
 def _add_rows(table: Columns, labels: _Labels, single: Sequence[_Series]) -> None:
@@ -136,12 +139,12 @@ def _free(table: Columns, heading: str) -> str:
     return wanted
 
 
-def _labels(axes: Axes) -> _Labels:
+def _labels(axes: Axes, title: str) -> _Labels:
     shared_x, shared_y = axes.get_shared_x_axes(), axes.get_shared_y_axes()
     across = _label([one.get_xlabel() for one in (axes, *shared_x.get_siblings(axes))])
     up = _label([one.get_ylabel() for one in (axes, *shared_y.get_siblings(axes))])
     return _Labels(
-        _title(axes),
+        title,
         across or ("x" if axes.xaxis.get_tick_params()["labelbottom"] else None),
         up or ("y" if axes.yaxis.get_tick_params()["labelleft"] else None),
     )

@@ -71,7 +71,7 @@ def sentences(record: AssessmentSummary) -> list[str]:
     """Say the answer of an assessment: a sentence on each thing that was asked."""
     if record.status == "failed":
         return [f"There is no answer: {record.reason}"]
-    found = [_overturns(record)]
+    found = [*_rate(record), _overturns(record)]
     if record.curve_reason:
         found.append(f"This is read from a curve that only rises, not from a lognormal one: {record.curve_reason}.")
     found += [
@@ -80,7 +80,6 @@ def sentences(record: AssessmentSummary) -> list[str]:
         *_correction_matters(record),
         *_parts(record),
         *_resurrected(record),
-        *_rate(record),
         _assumed(record),
         f"Not covered: {'' if _has_several(record) else ONE_BLOCK}{NOT_COVERED}",
     ]
@@ -143,7 +142,8 @@ def _correction_matters(record: AssessmentSummary) -> list[str]:
         return []
     plain, own = by_name[UNCORRECTED], by_name.get("nothing varied")
     if plain.median.value is None:
-        return [f"The records are corrected ({record.baseline}). As they are, they give no curve: {plain.reason}."]
+        why = (plain.reason or "").rstrip(".")
+        return [f"The records are corrected ({record.baseline}). As they are, they give no curve: {why}."]
     corrected = "" if own is None else f"; corrected, and with nothing varied either, {_median(record, own)}"
     count = f" of {plain.records} records" if plain.records else ""
     return [
@@ -184,8 +184,8 @@ def _rate(record: AssessmentSummary) -> list[str]:
     years = record.probability_50_years
     interval = "" if None in (years.low, years.high) else f" ({percent(years.low)} to {percent(years.high)})"
     return [
-        f"With the hazard given it overturns {with_minus(f'{record.annual_rate.value:.2g}')} times a year, within 50 "
-        f"years with a probability of {percent(years.value)}{interval}."
+        f"Within 50 years it overturns with a probability of {percent(years.value)}{interval}: with the hazard given, "
+        f"{with_minus(f'{record.annual_rate.value:.2g}')} times a year."
     ]
 
 

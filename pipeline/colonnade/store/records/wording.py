@@ -120,7 +120,7 @@ def measured(test: TestSummary, level: float | None = None) -> str:
         return f"{_words(test.observed_outcome)} (seen)" if test.observed_outcome else test.status
     far = farthest(test)
     moved = f", {far[0]} moved {quantity(far[1], 'mm')}" if far else ""
-    return _with_peak(test.outcome, test.peak_ratio, " α") + moved + (", no e" if test.restitution else "")
+    return _with_peak(test.outcome, test.peak_ratio) + moved + (", no e" if test.restitution else "")
 
 
 def farthest(test: TestSummary) -> tuple[str, float] | None:
@@ -168,7 +168,7 @@ def by_bodies(test: TestSummary) -> str:
 
 def predicted(test: TestSummary) -> dict[str, str]:
     """
-    Write what each model predicts of a test with the verdict on it, such as ``0.275 ✓``; the exact models first.
+    Write what each model predicts of a test with the verdict on it, such as ``0.275 α ✓``; the exact models first.
 
     The outcome is named if it is not that of a block that rocks as measured. A model that has not run is left out.
     """
@@ -181,20 +181,16 @@ def predicted(test: TestSummary) -> dict[str, str]:
 
 
 def _prediction(test: TestSummary, found: PredictionSummary) -> str:
-    if test.outcome == found.outcome == "rocking":
-        return _peak(found.peak_ratio)
-    return _with_peak(found.outcome or "", found.peak_ratio)
+    told = _with_peak(found.outcome or "", found.peak_ratio)
+    return told.removeprefix("rocking ") if test.outcome == "rocking" else told
 
 
-def _with_peak(outcome: str, peak_ratio: float | None, unit: str = "") -> str:
+def _with_peak(outcome: str, peak_ratio: float | None) -> str:
     """Write an outcome, and the peak of a block that rocks."""
-    peak = f" {_peak(peak_ratio)}{unit}" if outcome == "rocking" and peak_ratio is not None else ""
-    return _words(outcome) + peak
-
-
-def _peak(peak_ratio: float | None) -> str:
-    """Write a peak over α to the thousandth, the least that counts."""
-    return ratio(peak_ratio) if peak_ratio is None or peak_ratio < LEAST_RATIO else f"{peak_ratio:.3f}"
+    if outcome != "rocking" or peak_ratio is None:
+        return _words(outcome)
+    told = ratio(peak_ratio) if peak_ratio < LEAST_RATIO else f"{peak_ratio:.3f}"  # to the least that counts
+    return f"rocking {told} α"
 
 
 def _words(outcome: str) -> str:
