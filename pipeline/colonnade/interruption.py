@@ -133,11 +133,6 @@ def _send_unanswered() -> None:
         _send(_noted[-1])
 
 
-def stop() -> None:
-    """Stop this process in order, from any of its threads: as if SIGTERM came."""
-    _send(signal.SIGTERM)
-
-
 def _send(signum: int) -> None:
     main = threading.main_thread().ident
     if main is not None and hasattr(signal, "pthread_kill"):

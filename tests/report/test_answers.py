@@ -48,7 +48,7 @@ def with_summary(folder):
     campaign, layout = load(folder), Layout(folder)
     forecasts = read_forecasts(layout)
     chosen = choose(campaign, forecasts, {name: {} for name in campaign.tests})
-    by_test, together = foreseen_of(layout, forecasts, chosen, set())
+    by_test, together = foreseen_of(layout, forecasts, chosen)
     summary = json.loads(layout.summary_json.read_text(encoding="utf-8"))
     record = by_test[LATER].model_dump(mode="json")
     summary["tests"][LATER] = {"status": "pending", "kind": "earthquake", "specimen": "prism", "forecast": record}

@@ -39,7 +39,7 @@ def layout(tmp_path):
     return Layout(tmp_path)
 
 
-def toys(layout, *, value=120, code="one", make=None):
+def toys(layout, *, value=120, code="one", make=None, asked=()):
     """Three results of a test, of which the first has an input; `make` replaces what makes some, by their stages."""
     results = [ResultId("toy", stage) for stage in STAGES]
     paths = [layout.path(result) for result in results]
@@ -51,19 +51,20 @@ def toys(layout, *, value=120, code="one", make=None):
             code,
             (make or {}).get(result.stage, partial(tenth, value)),
             (paths[number],),
+            is_asked=result.stage in asked,
         )
         for number, result in enumerate(results)
     ]
 
 
-def chain(layout, run_id, products, **more):
-    return Chain(products, layout, Origin("toy", "Toy", None), run_id, **more)
+def chain(layout, run_id, products):
+    return Chain(products, layout, Origin("toy", "Toy", None), run_id)
 
 
-def ran(layout, *, start_from=None, **given):
+def ran(layout, **given):
     """Bring the toys up to date; give what became of each, and why."""
     with only_run(layout) as run_id:
-        runs = bring_up_to_date(chain(layout, run_id, toys(layout, **given), start_from=start_from))
+        runs = bring_up_to_date(chain(layout, run_id, toys(layout, **given)))
     return [(run.action, run.because or run.reason) for run in runs]
 
 
@@ -85,14 +86,14 @@ def test_all_is_made_in_its_order_once(layout):
         ({"value": 121}, [("done", "settings changed"), ("done", "upstream changed"), ("up-to-date", "")]),
         ({"value": 130}, [("done", "settings changed"), ("done", "upstream changed"), ("done", "upstream changed")]),
         ({"code": "two"}, [("done", "code changed")] * 3),
-        ({"start_from": "condition"}, [("up-to-date", ""), ("done", "asked for"), ("done", "asked for")]),
+        ({"asked": STAGES[1:]}, [("up-to-date", ""), ("done", "asked for"), ("done", "asked for")]),
     ],
     ids=["equal values stop the cascade", "other values go on", "code", "asked for"],
 )
 def test_what_changed_is_made_again_and_why_is_told(layout, change, told):
     ran(layout)
     assert ran(layout, **change) == told
-    change.pop("start_from", None)
+    change.pop("asked", None)
     assert ran(layout, **change) == [("up-to-date", "")] * 3
 
 

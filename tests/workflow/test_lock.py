@@ -49,13 +49,6 @@ def test_half_a_file_of_a_killed_run_is_swept(small, place):
     assert not half.exists()
 
 
-def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_swept_at_its_end(small):
-    half = small.layout.test("pulse-01") / ".rocking.nc.4711.partial"
-    with only_run(small.layout):
-        half.write_bytes(b"half")
-    assert not half.exists()
-
-
 def run_once(campaign_file, results=None):
     with only_run(Layout.of(campaign_file, results)):
         pass

@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import signal
 import subprocess
 import time
@@ -76,8 +75,6 @@ def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
 ):
     killer("pulse-01", tmp_path, times=9)
     result = untouched.run(workers=2)
-    (notice,) = result.notices
-    assert re.search("A worker process was stopped .*tried again with half as many", notice)
     failed = [stage for stage in result.stages if stage.action == "failed"]
     assert [(stage.subject, stage.stage) for stage in failed] == [("pulse-01", "ingest")]
     assert "stopped the process that worked on this test" in untouched.summary()["tests"]["pulse-01"]["reason"]

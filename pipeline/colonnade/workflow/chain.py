@@ -19,7 +19,7 @@ from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin, global_attributes
-from colonnade.store.results import RUN_STAGES, STAGES, ResultId, Subject
+from colonnade.store.results import STAGES, ResultId, Subject
 from colonnade.workflow.executors import WorkersEndedError, in_blocks
 from colonnade.workflow.lock import expect_run
 from colonnade.workflow.product import Look, Product, stored_attributes
@@ -98,7 +98,7 @@ class RunResult:
     concerning : mapping of str to tuple of Finding
         Those of them that are about the specimen or the set-up of each test.
     notices : tuple of str
-        What happened to the run itself, such as that the system stopped a worker.
+        What happened to the run itself: which results were altered, and so recomputed.
     """
 
     stages: tuple[StageRun, ...]
@@ -161,19 +161,12 @@ class Chain:
     layout: Layout
     origin: Origin
     run_id: str
-    start_from: str | None = None
-
-    def why(self, product: Product, look: Look) -> str:
-        """Say why a result has to be made; empty if it does not."""
-        if self.start_from is not None and product.result.order >= RUN_STAGES.index(self.start_from):
-            return "asked for"
-        return product.why(look)
 
     def standing(self, look: Look) -> tuple[list[StageRun], Product | None]:
         """Give what became of its results so far, and the first that has to be made, if any has to."""
         runs: list[StageRun] = []
         for product in self.products:
-            if self.why(product, look):
+            if product.why(look):
                 return runs, product
             runs.append(_unchanged(product, look(product.paths[0])))
             if runs[-1].action == "failed":
@@ -247,7 +240,7 @@ def _run(chain: Chain, product: Product, made: dict[Path, xr.Dataset]) -> StageR
     def look(path: Path) -> Mapping[str, Any]:
         return made[path].attrs if path in made else stored_attributes(path)
 
-    because = chain.why(product, look)
+    because = product.why(look)
     if not because:
         return _unchanged(product, look(path))
     started = time.perf_counter()

@@ -34,8 +34,6 @@ warnings.filterwarnings("ignore", category=UserWarning, message="A worker stoppe
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
-Tell = Callable[[str], None]
-"""Takes a sentence about the run itself, such as that the system stopped a worker."""
 
 STOPPED = "A worker process was stopped by the system, most often because memory ran out"
 
@@ -74,7 +72,6 @@ def spread(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
-    tell: Tell = lambda sentence: None,
     lost: Callable[[Item], Result] | None = None,
 ) -> Iterator[tuple[int, Result]]:
     """
@@ -90,8 +87,6 @@ def spread(
         Processes of this machine; one a core by default. With one, all is done in this process.
     scheduler : str, optional
         Address of a running Dask scheduler, as "tcp://10.0.0.1:8786": its workers are used instead.
-    tell : callable, optional
-        Called with a sentence if a worker was stopped.
     lost : callable, optional
         Gives the result of an item that lost its worker even when it was alone; without it that is an error.
 
@@ -129,9 +124,8 @@ def spread(
                 del waiting[number]
                 yield number, result
         except BrokenProcessPool as error:
-            if now > 1:
+            if now > 1:  # most often memory ran out: what was not done is tried again with half as many
                 now //= 2
-                tell(f"{STOPPED}. What was not done is tried again with half as many.")
                 continue
             if lost is None:
                 raise WorkersEndedError(
@@ -177,7 +171,7 @@ def _processes(count: int) -> Workers:
     # Joblib's own kind, which a later `joblib.Parallel` of the caller can follow. Each settles in as it starts, not
     # with its first item: one that never gets any has to notice its parent's end too.
     with held_back():
-        settled = {"initializer": _settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
+        settled = {"initializer": settle_in, "initargs": (os.getpid(),), "env": _ONE_THREAD}
         pool: Any = get_memmapping_executor(count, max_nbytes=None, **settled)
     return Workers(pool, expect_none, lambda pending: _stop(pool))
 
@@ -200,26 +194,21 @@ def _stop(pool: Any) -> None:
         threading.excepthook = original
 
 
-def _settle_in(parent: int) -> None:
-    """Leave Ctrl-C to the parent, and end when it is gone: a worker without a run's lock may not write."""
-    for signum in FROM_TERMINAL:
-        signal.signal(signum, signal.SIG_IGN)
-    end_with(parent, partial(os._exit, 1))
-
-
 PATROL = 0.1
 """Seconds between two checks that the parent is alive."""
 
 
-def end_with(parent: int, end: Callable[[], object]) -> None:
-    """Call a function, in a thread, once the parent of this process is not this one any more, however it ended."""
+def settle_in(parent: int) -> None:
+    """Leave Ctrl-C to the parent, and end when it is gone, however it ended: a worker without a lock may not write."""
+    for signum in FROM_TERMINAL:
+        signal.signal(signum, signal.SIG_IGN)
 
-    def wait() -> None:
+    def end_with_it() -> None:
         while os.getppid() == parent:
             time.sleep(PATROL)
-        end()
+        os._exit(1)
 
-    threading.Thread(target=wait, daemon=True).start()
+    threading.Thread(target=end_with_it, daemon=True).start()
 
 
 _PATIENCE = 10

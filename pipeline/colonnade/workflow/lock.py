@@ -58,12 +58,8 @@ def only_watch(layout: Layout) -> AbstractContextManager[str]:
 @contextmanager
 def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: bool = False) -> Iterator[str]:
     """
-    Hold a lock and say by whom; give the name of this holding.
-
-    If it `sweeps`, it removes what is half-written; once more at the end, as workers of a killed run live on for a
-    moment.
+    Hold a lock and say by whom; give the name of this holding. If it `sweeps`, it removes what is half-written.
     """
-    left = _half_written(layout)
     try:
         if path.is_symlink():
             path.unlink()
@@ -84,14 +80,12 @@ def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: boo
         since = datetime.now().astimezone().isoformat("T", "seconds")
         write_text(holder, f"{run_id} process {os.getpid()} on {platform.node()}, since {since}\n")
         if sweeps:
-            for each in left:
+            for each in (*half_written(layout.processed), *half_written(layout.report.parent)):
                 remove(each)
         yield run_id
     finally:
         try:
             remove(holder)
-            for each in _half_written(layout) if sweeps else ():
-                remove(each)
         finally:
             lock.release()
 
@@ -123,10 +117,6 @@ def expect_run(layout: Layout, run_id: str) -> None:
     """
     if not _said_by(layout.lock_holder).startswith(run_id):
         raise RunEndedError(f"{layout.home}: the run that asked for this has ended; nothing more is written for it.")
-
-
-def _half_written(layout: Layout) -> list[Path]:
-    return [*half_written(layout.processed), *half_written(layout.report.parent)]
 
 
 def _said_by(note: Path) -> str:

@@ -243,6 +243,8 @@ class Product:
         Its files: of a result one.
     where : Where or None
         Who works on its blocks: it is asked for in the process of the run, and `make` takes `run`, too.
+    is_asked : bool
+        Whether it is made whatever its state.
     """
 
     id: ResultId | str
@@ -252,6 +254,7 @@ class Product:
     make: Callable[..., Any]
     paths: tuple[Path, ...] = ()
     where: Where | None = None
+    is_asked: bool = False
 
     @property
     def result(self) -> ResultId:
@@ -294,8 +297,10 @@ class Product:
         -------
         because : str
             "never run", "raw file changed", "upstream changed", "settings changed" or "code changed"; empty if it is
-            up to date.
+            up to date. "asked for", whatever its state, if it `is_asked`.
         """
+        if self.is_asked:
+            return "asked for"
         stored, now = look(self.paths[0]), self._ingredients(look)
         if stored.get("key") == self._key(now):
             return ""

@@ -91,8 +91,7 @@ def run(
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
     layout, report, notices = Layout.of(loaded.path, results), None, list[str]()
     with walking(loaded, layout, Where(workers, scheduler), verify=verify) as walk:
-        walk.start_from, walk.until = start_from, last
-        walk.progress, walk.tell = progress, notices.append
+        walk.start_from, walk.until, walk.progress = start_from, last, progress
         notices += walk.graph.catalogue.remove_altered()
         for name in loaded.tests.keys() - walk.included:
             remove_results(layout, name)
@@ -107,7 +106,7 @@ def run(
 
 def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[set[str], Summary]:
     """
-    Write the summary; before it, if the run goes to the report, score forecasts and assess real columns.
+    Score forecasts, assess real columns, and write the summary.
 
     Return the tests that are out of date, too.
     """
@@ -117,16 +116,15 @@ def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[set[str], Summary]:
     walk.warn([*copies(graph.campaign, raw), *map(finding_of, forecasts.refused)])
     outdated = walk.stale() | (graph.campaign.tests.keys() - walk.included)
     chosen = choose(graph.campaign, forecasts, raw)
-    if walk.until == "report":
-        walk.score(chosen.scored, outdated)
-        if not awaiting:  # while tests arrive, the answers about real columns wait for the last of them
-            walk.assess(graph.campaign.assessments)
+    walk.score(chosen.scored, outdated)
+    if not awaiting:  # while tests arrive, the answers about real columns wait for the last of them
+        walk.assess(graph.campaign.assessments)
     summary = write_summary(
         walk.graph,
         outdated=outdated,
         failed=walk.failed["test"],
         unassessed=walk.stale_assessments(),
-        foreseen=foreseen_of(layout, forecasts, chosen, outdated | walk.failed["test"].keys()),
+        foreseen=foreseen_of(layout, forecasts, chosen),
         workers=walk.where.workers,
     )
     return outdated, summary

@@ -207,7 +207,7 @@ def finding_of(refused: Refused) -> Finding:
     return warning("forecast", f"forecasts/{refused.name}: {refused.reason} It is left out.")
 
 
-def foreseen_of(layout: Layout, forecasts: Forecasts, chosen: Chosen, left_out: Collection[str]) -> Foreseen:
+def foreseen_of(layout: Layout, forecasts: Forecasts, chosen: Chosen) -> Foreseen:
     """
     Gather what the summary says of forecasts.
 
@@ -216,14 +216,11 @@ def foreseen_of(layout: Layout, forecasts: Forecasts, chosen: Chosen, left_out: 
     layout : Layout
     forecasts : Forecasts
     chosen : Chosen
-    left_out : collection of str
-        Tests without results that are up to date: their forecasts have no scores.
     """
     scored, records = {}, {}
     for test, known in chosen.counts.items():
-        blind, scores = chosen.blind[known.name], None
-        if blind and test not in left_out:
-            scores = read_done(layout.stage(test, "forecast"))
+        blind = chosen.blind[known.name]
+        scores = read_done(layout.stage(test, "forecast")) if blind else None
         if scores is not None and scores.attrs["file"] != known.name:  # those of another forecast
             scores = None
         reason = NOT_MEASURED if scores is None else str(scores.attrs["reason"])

@@ -21,7 +21,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, Subject, models_of
 from colonnade.workflow.chain import Chain, StageRun, bring_up_to_date, worker_lost
-from colonnade.workflow.executors import HERE, Tell, Where, spread
+from colonnade.workflow.executors import HERE, Where, spread
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.product import Catalogue, Product
@@ -47,8 +47,6 @@ class Walk:
         Where the work is done, and who is told of the blocks of assessments and maps.
     progress : callable or None
         Called with each stage of a test that ended, the number of tests done, and their total.
-    tell : callable
-        Called with a sentence if a worker was stopped.
     stages : list of StageRun
         What became of each stage so far.
     failed : dict of dict of str to str
@@ -61,7 +59,6 @@ class Walk:
     until: str = "report"
     where: Where = HERE
     progress: Progress | None = None
-    tell: Tell = lambda sentence: None
     stages: list[StageRun] = field(default_factory=list)
     failed: dict[Subject, dict[str, str]] = field(default_factory=lambda: defaultdict(dict))
     _known: dict[str, list[Product]] = field(default_factory=dict)
@@ -69,16 +66,16 @@ class Walk:
     def through(self, tests: Sequence[str]) -> None:
         """Bring tests up to date, and the specimens that they need."""
         campaign = self.graph.campaign
-        needed = {campaign.tests[name].specimen for name in tests} if self._asks_for("predict") else ()
-        measured = dict.fromkeys([*tests, *self._free_vibrations(needed)])
-        self.follow(self._results(name, until=self._at_most("restitution")) for name in measured)
-        if self._asks_for("restitution"):
-            self.pool()
-        if self._asks_for("predict"):
-            models = {name: models_of(campaign, campaign.tests[name]) for name in tests}
-            in_space = [name for name in tests if any(MODELS[model].in_space for model in models[name])]
-            self.calibrate({campaign.tests[name].specimen for name in in_space})
-            self.follow(self._results(name, "predict", self._at_most("compare")) for name in tests)
+        predicted = tests if RUN_STAGES.index("predict") <= RUN_STAGES.index(self.until) else ()
+        measured = dict.fromkeys(
+            [*tests, *self._free_vibrations({campaign.tests[name].specimen for name in predicted})]
+        )
+        self.follow(self._results(name, until="restitution") for name in measured)
+        self.pool()
+        models = {name: models_of(campaign, campaign.tests[name]) for name in tests}
+        in_space = [name for name in tests if any(MODELS[model].in_space for model in models[name])]
+        self.calibrate({campaign.tests[name].specimen for name in in_space})
+        self.follow(self._results(name, "predict") for name in tests)
 
     def warn(self, findings: Iterable[Finding]) -> None:
         """Add findings to those of the campaign."""
@@ -136,26 +133,31 @@ class Walk:
         return {name for name, each in asked if self._is_late([self._assessing(name, each)])}
 
     def _is_late(self, products: Sequence[Product]) -> bool:
-        _, late = replace(self._chain(products), start_from=None).standing(self.graph.catalogue.attributes)
-        return late is not None
+        return self._chain(products).standing(self.graph.catalogue.attributes)[1] is not None
 
     def follow(self, chains: Iterable[Sequence[Product]]) -> None:
         """
-        Bring chains of results up to date that do not depend on each other; nothing follows a failure.
+        Bring chains of results, each of one subject, up to date as far as is asked for; nothing follows a failure.
 
-        Those with nothing to do end here; the others are worked on by workers, but for results that several workers
-        share in: those are made one after the other when what is before them is there.
+        They do not depend on each other. Those with nothing to do end here. The others are worked on by workers; but
+        results that several workers share in are made one after the other, when what is before them is there.
         """
-        parts = ([list(part) for _, part in groupby(chain, lambda each: each.where is None)] for chain in chains)
+        asked = map(self._asked_for, chains)
+        parts = ([list(part) for _, part in groupby(chain, lambda each: each.where is None)] for chain in asked)
         for side_by_side in zip_longest(*parts, fillvalue=list[Product]()):
-            standing = [part for part in side_by_side if not all(map(self._has_failed, part))]
+            standing = [part for part in side_by_side if part and not self._has_failed(part[0].result)]
             self._bring([part for part in standing if part[0].where is None], self.where)
             for part in standing:
                 if part[0].where is not None:
                     self._bring([part], Where(workers=1))
 
-    def _has_failed(self, product: Product) -> bool:
-        return product.result.subject in self.failed[product.result.of]
+    def _asked_for(self, chain: Sequence[Product]) -> list[Product]:
+        last = RUN_STAGES.index(self.until)
+        first = len(RUN_STAGES) if self.start_from is None else RUN_STAGES.index(self.start_from)
+        return [replace(each, is_asked=each.result.order >= first) for each in chain if each.result.order <= last]
+
+    def _has_failed(self, result: ResultId) -> bool:
+        return result.subject in self.failed[result.of]
 
     def _bring(self, chains: Sequence[Sequence[Product]], where: Where) -> None:
         for done, runs in enumerate(self._ended(chains, where), 1):
@@ -176,21 +178,15 @@ class Walk:
             else:
                 waiting.append(chain)
         bring = partial(spread, bring_up_to_date, workers=where.workers, scheduler=where.scheduler)
-        yield from (runs for _, runs in bring(waiting, tell=self.tell, lost=worker_lost))
+        yield from (runs for _, runs in bring(waiting, lost=worker_lost))
 
     def _chain(self, products: Sequence[Product]) -> Chain:
-        return Chain(products, self.graph.layout, Origin.of(self.graph.campaign), self.run_id, self.start_from)
+        return Chain(products, self.graph.layout, Origin.of(self.graph.campaign), self.run_id)
 
     @property
     def included(self) -> set[str]:
         """Ids of the tests that are run: not excluded, and not planned and still without a raw file."""
         return {name for name in self.graph.campaign.tests if not self.graph.campaign.left_out(name)}
-
-    def _at_most(self, stage: str) -> str:
-        return min(stage, self.until, key=RUN_STAGES.index)
-
-    def _asks_for(self, stage: str) -> bool:
-        return self._at_most(stage) == stage
 
     def _results(self, name: str, since: str = "ingest", until: str = "compare") -> list[Product]:
         """Return the results of a test from one stage to another; gathering what they read of the campaign is slow."""

@@ -24,7 +24,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
-from colonnade.workflow.executors import end_with
+from colonnade.workflow.executors import settle_in
 from colonnade.workflow.lock import is_refusal, only_watch
 from colonnade.workflow.product import marks_of
 from colonnade.workflow.watching.arrivals import POLL, Arrivals, Share, listening
@@ -34,10 +34,7 @@ TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
 """Files next to the campaign file that people change while it is watched."""
 
 AGAIN = 2.0
-"""Seconds after which a test is tried again if another run held the campaign."""
-
-GRACE = 10.0
-"""Seconds without a change after which a file that cannot be used is called a failure."""
+"""Seconds of rest if another run held the campaign, or results could not be written."""
 
 BUSY = 0.2
 """Seconds between two looks while something goes on."""
@@ -117,9 +114,9 @@ class _Watching:
     share: Share | None
     _arrivals: Arrivals = field(init=False)
     _behind: Behind | None = None
-    _due: dict[str, float] = field(default_factory=dict)
+    _due: set[str] = field(default_factory=set)
     _is_outdated: bool = True
-    _behind_from: float = 0.0
+    _rests_until: float = 0.0
     _code: int = 0
     _said: set[str] = field(default_factory=set)
     _measured: dict[str, TestSummary] = field(default_factory=dict)
@@ -176,11 +173,12 @@ class _Watching:
         if finished := self._arrivals.look(marks_of(watched), now):
             self._is_outdated |= not finished.isdisjoint(self._texts)
             self._reload()
-            self._due |= {name: now for name in self.campaign.tests if not finished.isdisjoint(self._files([name]))}
-        for name in [name for name, due in self._due.items() if due <= now]:
-            del self._due[name]
-            self._is_outdated = True
-            self._measure(name, now)
+            self._due |= {name for name in self.campaign.tests if not finished.isdisjoint(self._files([name]))}
+        for name in sorted(self._due):
+            if now >= self._rests_until:
+                self._due.remove(name)
+                self._is_outdated = True
+                self._measure(name, now)
         self._go_on(now)
 
     def _measure(self, name: str, now: float) -> None:
@@ -194,12 +192,8 @@ class _Watching:
         except StoreError as error:
             self._say_once(str(error))
             if not self.is_once or is_refusal(str(error)):
-                self._due[name] = now + AGAIN
-            return
-        changed = max((since for _, since, _ in marks_of(test.files.values()).values()), default=0) / 1e9
-        if line.record.status == "failed" and time.time() - changed < GRACE:
-            # Its writer may only pause: it is called a failure when nothing more comes.
-            self._due[name] = now + GRACE
+                self._due.add(name)
+                self._rests_until = now + AGAIN
             return
         self._line, self._line_written = line.text(), time.time()
         self._show(line)
@@ -220,7 +214,7 @@ class _Watching:
             for failure in ended.failures:
                 self._say_once(failure)
             if is_refusal(ended.problem):
-                self._is_outdated, self._behind_from = True, now + AGAIN
+                self._is_outdated, self._rests_until = True, now + AGAIN
             elif ended.problem:
                 self._log(ended.problem)
                 self._say_once(
@@ -228,7 +222,7 @@ class _Watching:
                     f"All that it said is in {self.layout.watch_log}. It starts again after the next file."
                 )
         is_free = not (self._due or self._arrivals.is_waiting or self._behind)
-        if self._is_outdated and is_free and now >= self._behind_from:
+        if self._is_outdated and is_free and now >= self._rests_until:
             self._is_outdated = False
             self._behind = Behind(self.campaign.path, self.layout.results, self.workers)
         if ended is not None or now - self._alive >= EVERY:
@@ -270,9 +264,6 @@ class _Watching:
 NICENESS = 10
 """How far its priority is below that of the watch."""
 
-GIVES_WAY = 3.0
-"""Seconds in which it has to give way; then it is killed, which loses nothing but the steps in progress."""
-
 
 @dataclass(frozen=True)
 class Ended:
@@ -309,26 +300,19 @@ class Behind:
             ended: Ended | None = self._told.recv()
         except EOFError:
             ended = None
-        self._end()  # it has nothing left to do, but must not hold the watch
+        self.give_way()  # it has nothing left to do, but must not hold the watch
         return ended or Ended(problem=f"It ended with exit code {self._process.exitcode}.")
 
     def give_way(self) -> None:
-        """Stop it: what it finished is kept, the rest is done by the next."""
-        self._process.terminate()
-        self._end()
-
-    def _end(self) -> None:
-        """Wait for its end, and bring it about if it takes long; its workers end with it."""
-        self._process.join(GIVES_WAY)
+        """Kill it and its workers, which loses nothing but the steps in progress: the rest is done by the next."""
         self._process.kill()
         self._process.join()
         self._told.close()
 
 
 def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
-    """Run a campaign, and tell how it ended; stop in order, so that finished results are kept, when the watch ends."""
-    interruption.listen()
-    end_with(watch, interruption.stop)
+    """Run a campaign, and tell how it ended; end with the watch."""
+    settle_in(watch)
     if hasattr(os, "nice"):
         os.nice(NICENESS)
     try:
@@ -336,10 +320,7 @@ def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None
 
         stages = run(campaign_file, results=results, workers=workers, awaiting=True).stages
         tell.send(Ended(tuple(f"{stage.subject}: {stage.reason}" for stage in stages if stage.action == "failed")))
-    except KeyboardInterrupt:
-        pass
     except ColonnadeError as error:
         tell.send(Ended(problem=str(error)))
     except Exception as error:
         tell.send(Ended(problem=f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
-    interruption.stop_listening()
