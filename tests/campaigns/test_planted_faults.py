@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from fault_atlas import DOCUMENTS, FAULTS, GROUPS, mending_lines, planted
-from faults.sound import RESTITUTION, findings, keep_only, write_sound
+from faults.fault import TOP, both, channel_line, in_file
+from faults.sound import COMMANDS, RESTITUTION, findings, keep_only, write_sound
 from faults.unseen import UNSEEN, effect
 
 pytestmark = pytest.mark.whole
@@ -70,6 +71,40 @@ def test_without_a_fault_nothing_is_said(test, sound, tmp_path):
     folder = shutil.copytree(sound, tmp_path / "campaign")
     keep_only(test, folder)
     assert findings("check", folder) == ""
+
+
+def _saturated(samples):
+    """The top at 80 % of its largest value, under noise."""
+    zero, noise = np.median(samples[:200, TOP]), np.random.default_rng(0).normal(0, 0.002, len(samples))
+    limit = 0.8 * np.abs(samples[:, TOP] - zero).max()
+    samples[:, TOP] = np.clip(samples[:, TOP], zero - limit, zero + limit) + noise
+    return samples
+
+
+MISTAKES = {
+    "saturated, without a range": (
+        "quake",
+        both(channel_line("rig", "top", ', range = "10 V"', ""), in_file("quake.csv", _saturated)),
+        r"warning \(end of the range\): quake: channel top: .*: the channel saturates, .* Its peaks are lower bounds",
+    ),
+    "V for mm": (
+        "free",
+        channel_line("frame", "top", 'unit = "V", gain = "15 mm/V", range = "10 V"', 'unit = "mm"'),
+        r'serious \(unit\): free: channel top: free.csv says "V" .* the campaign file says "mm"',
+    ),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_the_true_cause_comes_first(mistake, sound, tmp_path):
+    test, plant, expected = MISTAKES[mistake]
+    folder = shutil.copytree(sound, tmp_path / "campaign")
+    keep_only(test, folder)
+    plant(folder)
+    for command in COMMANDS:
+        told = findings(command, folder)
+        first = re.search(r"^(?:serious|warning).*", told, re.MULTILINE)
+        assert re.match(expected, first[0]), told
 
 
 def test_what_is_not_found_is_so(sound, tmp_path):

@@ -45,43 +45,6 @@ def test_text_that_is_not_a_list_of_text_passes(text):
     assert restored({"reason": text}) == {"reason": text}
 
 
-RESULT = xr.Dataset(
-    {
-        "top": ("elapsed", np.array([0.0, np.nan, 2.0]), {"channel": "top", "quantity": "displacement"}),
-        "top_quality": ("elapsed", np.array([1, 9, 1])),
-        "nrmse": ("model", np.array([0.1, 0.2])),
-        "restitution": ((), 0.97),
-    },
-    coords={
-        "elapsed": np.arange(3) * 0.005,
-        "model": np.array(["linear", "nonlinear"], dtype=object),
-        "test_id": ("test", np.array([], dtype=object)),
-    },
-    attrs={"outcome": "rocking", "notes": ["a", "b"]},
-)
-
-
-@pytest.fixture
-def path(tmp_path):
-    files.write(RESULT, tmp_path / "a.nc", attributes={"stage": "compare"})
-    return tmp_path / "a.nc"
-
-
-def read(path):
-    with netCDF4.Dataset(path) as opened:
-        return loaded(opened)
-
-
-def test_values_attributes_and_coordinates_are_those_that_xarray_finds(path):
-    with xr.open_dataset(path, decode_times=False, mask_and_scale=False) as opened:
-        expected = opened.load()
-    labels = expected["model_name"].variable
-    expected = expected.drop_vars("model_name").assign_coords(model=("model", labels.values, labels.attrs))
-    xr.testing.assert_identical(read(path), expected)
-    for name in expected.variables:
-        assert read(path)[name].dtype.kind == expected[name].dtype.kind
-
-
 SIZE = 2000
 
 
@@ -104,6 +67,22 @@ def record(first=0.0):
         coords={"elapsed": np.arange(SIZE) * 0.005, "elapsed_near": np.arange(10) * 0.5},
         attrs={"warnings": FINDINGS, "outcome": "", "nothing": None},
     )
+
+
+def test_values_attributes_and_coordinates_are_those_that_xarray_finds(tmp_path):
+    labels = {"model": np.array(["linear", "nonlinear"], dtype=object), "test_id": ("test", np.array([], dtype=object))}
+    result = record().assign(nrmse=("model", [0.1, 0.2]), restitution=((), 0.97)).assign_coords(labels)
+    files.write(result, tmp_path / "a.nc", attributes={"stage": "compare"})
+    with xr.open_dataset(tmp_path / "a.nc", decode_times=False, mask_and_scale=False) as opened:
+        expected = opened.load()
+    labels = expected["model_name"].variable
+    expected = expected.drop_vars("model_name").assign_coords(model=("model", labels.values, labels.attrs))
+    with netCDF4.Dataset(tmp_path / "a.nc") as opened:
+        found = loaded(opened)
+    xr.testing.assert_identical(found, expected)
+    assert {name: found[name].dtype.kind for name in expected.variables} == {
+        name: each.dtype.kind for name, each in expected.variables.items()
+    }
 
 
 @pytest.mark.parametrize("long", [1000, 10_000], ids=["long", "short"])

@@ -66,10 +66,6 @@ def test_values_at_the_ends_of_what_is_written(found, said):
     assert found == said
 
 
-LETTERS = st.characters(codec="utf-8", exclude_categories=["Cc", "Cs"], exclude_characters="\ufffe\uffff")
-TEXT = st.text(LETTERS, max_size=20)
-
-
 class Told(text.Digested):
     def __init__(self, said):
         self.said = said
