@@ -1,5 +1,8 @@
 """A recording that another laboratory published, as a campaign with a measured specimen."""
 
+import shutil
+
+import numpy as np
 import pytest
 
 pytestmark = pytest.mark.whole
@@ -31,3 +34,44 @@ file = "raw/thadhaines_01.csv"
 zero = ["3.75 s", "6.15 s"]
 observed_outcome = "no-rocking"
 """
+
+
+@pytest.fixture(scope="module")
+def wooden_block(shared_data, tmp_path_factory, run_campaign):
+    folder = tmp_path_factory.mktemp("other")
+    (folder / "raw").mkdir()
+    shutil.copy(shared_data / "shaketable" / "thadhaines_01.csv", folder / "raw")
+    (folder / "campaign.toml").write_text(WOODEN_BLOCK, encoding="utf-8")
+    return run_campaign(folder / "campaign.toml")
+
+
+def test_the_shake_table_recording_has_its_published_figures(wooden_block):
+    recorded = wooden_block.result("sine-2Hz", "ingest")
+    assert recorded.sizes["elapsed"] == pytest.approx(9000, abs=2)
+    assert float(np.diff(recorded["elapsed"]).mean()) == pytest.approx(1e-3, rel=1e-6)
+    table = recorded["table_recorded"].to_numpy()
+    assert np.percentile(np.abs(table), 99) == pytest.approx(0.35, abs=0.1)  # ± 0.35 g
+    dark = recorded["elapsed"].to_numpy()[recorded["light_recorded"].to_numpy() < 1.0]
+    assert (dark.min(), dark.max()) == pytest.approx((3.731, 6.189), abs=2e-3)  # the sync light is off
+    assert float(np.std(recorded["block_recorded"])) == pytest.approx(0.006, abs=0.001)
+
+
+def test_the_dead_channel_is_flagged_and_told(wooden_block):
+    recorded = wooden_block.result("sine-2Hz", "ingest")
+    assert (recorded["block_quality"].to_numpy() == 3).all()
+    assert any(
+        "block" in warning["text"] and "practically dead" in warning["text"]
+        for warning in wooden_block.test("sine-2Hz")["warnings"]
+    )
+
+
+def test_the_linear_model_runs_on_the_recorded_table_motion(wooden_block):
+    test = wooden_block.test("sine-2Hz")
+    assert test["status"] == "done"
+    assert test["predicted"]["linear"]["outcome"] in ("no-rocking", "rocking", "overturned")
+    assert 2.5 < test["pga"] < 6.0
+    predicted = wooden_block.result("sine-2Hz", "predict", "linear")
+    np.testing.assert_allclose(
+        predicted["base_acceleration"], wooden_block.result("sine-2Hz", "rocking")["base_acceleration"]
+    )
+    assert wooden_block.summary["specimens"]["statue"]["restitution"]["source"] == "given"
