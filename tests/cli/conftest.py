@@ -10,20 +10,6 @@ import pytest
 from colonnade.cli import invoke
 from colonnade.cli.common import console
 
-CAMPAIGN = """\
-schema = 1
-campaign = "two-tests"
-title = "Two free vibrations of a prism"
-
-[specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
-
-[setups.frame.channels]
-top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}
-
-"""
-
 
 class Told(NamedTuple):
     """What a command left behind."""
@@ -72,7 +58,7 @@ def campaign(tmp_path):
 
     from colonnade import rock
     from colonnade.dynamics.kinematics import point_displacement
-    from prism import PRISM, entry
+    from prism import PRISM, TOP, campaign_of, entry
     from short_campaign import write_columns
 
     history = rock(PRISM, theta0=0.4 * PRISM.critical_angle, restitution=0.95, model="nonlinear", duration=12.0)
@@ -84,9 +70,8 @@ def campaign(tmp_path):
     for name, delimiter in (("free-01", ","), ("free-02", ";")):
         columns = {"Time [s]": time, "top [mm]": top + random.normal(0.0, 0.01, time.size)}
         write_columns(tmp_path / "raw" / f"{name}.csv", columns, delimiter)
-    (tmp_path / "campaign.toml").write_text(
-        CAMPAIGN + entry("free-01", "free-vibration") + entry("free-02", "free-vibration")
-    )
+    tests = entry("free-01", "free-vibration") + entry("free-02", "free-vibration")
+    (tmp_path / "campaign.toml").write_text(campaign_of(TOP, tests=tests))
     return tmp_path
 
 

@@ -14,25 +14,13 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.workflow import run
 from colonnade.workflow.product import mark_of
-from prism import PRISM, SPECIMEN
+from prism import PRISM, TOP, campaign_of, entry
 
-CAMPAIGN = f"""\
-schema = 1
-campaign = "small"
-title = "A small campaign"
-
-[specimens]
-{SPECIMEN}
-
-[processing.predict.ensemble]
-members = 20
-
-[setups.frame.channels]
-top = {{column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}}
-table = {{column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}}
-
-"""
+CAMPAIGN = campaign_of(
+    TOP,
+    'table = {column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}',
+    before="[processing.predict.ensemble]\nmembers = 20\n",
+)
 TESTS = {"free-01": "free-vibration", "free-02": "free-vibration", "pulse-01": "pulse", "pulse-02": "pulse"}
 RATE = 200.0
 
@@ -42,8 +30,7 @@ def write_campaign(folder, tests=TESTS):
     (folder / "raw").mkdir(parents=True)
     text = CAMPAIGN
     for number, (name, kind) in enumerate(tests.items()):
-        text += f'[[tests]]\nid = "{name}"\nkind = "{kind}"\nfile = "raw/{name}.csv"\n'
-        text += 'specimen = "prism"\nsetup = "frame"\n\n'
+        text += entry(name, kind)
         moved = {"theta0": 0.5 * PRISM.critical_angle} if kind == "free-vibration" else {"pulse": 2.4 + 0.2 * number}
         write_columns(folder / "raw" / f"{name}.csv", record(number, **moved))
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
@@ -70,10 +57,10 @@ def copied(campaign, folder):
     layout = Layout(Path(shutil.copytree(campaign, folder)))
     known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
     del known["sha256"]
-    for name, entry in known.items():
+    for name, kept in known.items():
         kind, place, *_ = name.split(" ")
         if kind in ("raw", "results", "pages"):
-            entry[0] = list(mark_of(folder / place))
+            kept[0] = list(mark_of(folder / place))
     known["sha256"] = hash_of(known)
     layout.catalogue.write_text(json.dumps(known, separators=(",", ":")), encoding="utf-8")
     return folder

@@ -2,24 +2,7 @@
 
 import hostile
 from colonnade.cli import invoke
-from prism import SPECIMEN, entry
-
-CAMPAIGN = f"""\
-schema = 1
-campaign = "strange"
-title = "A stranger's files"
-
-[specimens]
-{SPECIMEN}
-
-[setups.frame]
-sampling_rate = "100 Hz"
-
-[setups.frame.channels]
-top = {{column = "plain", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}}
-
-"""
+from prism import TOP, campaign_of, entry
 
 
 def test_no_command_runs_what_a_file_by_the_name_of_a_table_holds(tmp_path, tmp_path_factory, capsys):
@@ -27,7 +10,7 @@ def test_no_command_runs_what_a_file_by_the_name_of_a_table_holds(tmp_path, tmp_
     beside = tmp_path_factory.mktemp("beside") / "secrets"
     hostile.secrets(beside)
     inner = hostile.Place(tmp_path / "raw", beside, tmp_path / "made")
-    text = CAMPAIGN
+    text = campaign_of(TOP.replace('"top"', '"plain"'), before='[setups.frame]\nsampling_rate = "100 Hz"\n')
     for number, name in enumerate(("netcdf_elsewhere", "pickle_as_text", "matlab_elsewhere"), 1):
         path = hostile.FILES[name](inner)
         path = path.rename(path.with_name(f"free-0{number}.csv"))

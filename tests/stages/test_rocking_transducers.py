@@ -10,20 +10,10 @@ import chain
 from colonnade import campaign as campaigns
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.store.description import describe
-from prism import PRISM, SPECIMEN, entry
+from prism import PRISM, campaign_of, entry
 
 HALF_WIDTH = 0.043
 
-HEAD = f"""
-schema = 1
-campaign = "kinds"
-title = "Kinds"
-
-[specimens]
-{SPECIMEN}
-
-[setups.frame.channels]
-"""
 TURNING = 'quantity = "angular_velocity", unit = "rad/s", on = "specimen"'
 MOVING = 'quantity = "displacement", unit = "m", on = "specimen", relative_to = "table"'
 SHAKING = 'quantity = "acceleration", unit = "m/s^2"'
@@ -84,7 +74,7 @@ def measure(tmp_path, request):
         wired = "".join(f'{name} = {{column = "{name}", {CHANNELS[name]}}}\n' for name in names)
         wired = re.sub(r"(at|anchor) = \[(\S+), (\S+), (\S+)\]", r'\1 = ["\2 mm", "\3 mm", "\4 mm"]', wired)
         tests = entry("free-01", "free-vibration") + entry("shake-01", "earthquake")
-        (tmp_path / "campaign.toml").write_text(f"{HEAD}{wired}\n{tests}", encoding="utf-8")
+        (tmp_path / "campaign.toml").write_text(campaign_of(wired, tests=tests), encoding="utf-8")
         rng, readings = np.random.default_rng(5), _moved(time, angle, base, slide)
         columns = []
         for name in names:
