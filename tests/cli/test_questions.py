@@ -104,7 +104,7 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, refuse
     [
         ([], "Give either --motion or --pulse"),
         (["--pulse", "sine"], "The column is not known"),
-        ([*PULSE, "--restitution", "2"], "--restitution: 2.0 was found. A number above 0"),
+        ([*PULSE, "--restitution", "2"], "--restitution: 2.0 was found. It should be"),
         ([*PULSE, "--points", "1"], "--points: 1 was found."),
         ([*PULSE, "--largest", "-1"], "largest is -1.0"),
         ([*PULSE, "--out", "x.txt"], "unknown ending"),
