@@ -4,8 +4,8 @@ import shutil
 
 from colonnade.campaign import load
 from colonnade.store.layout import Layout
+from colonnade.workflow.asked import checked
 from colonnade.workflow.foresee import AskedForecast, foresee
-from colonnade.workflow.real_column import checked
 
 TEST, LATER = "span-2.0", "span-9"
 ENTRY = f"""

@@ -16,7 +16,7 @@ from colonnade.store import files
 from colonnade.store.records.assessment import sentences
 from colonnade.store.records.test import record_of_specimen
 from colonnade.store.results import ResultId
-from colonnade.workflow.advising.next import advise_kind
+from colonnade.workflow.advising import advise_kind
 from colonnade.workflow.assessing import Where, assess
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.check import check

@@ -15,8 +15,8 @@ from colonnade.stages.forecast import felt, plan_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
+from colonnade.workflow.asked import motion_asked_for
 from colonnade.workflow.foresee import factor_of
-from colonnade.workflow.motions import motion_asked_for
 from foreseeing import LATER, TEST, foreseen_of
 from prism import PRISM
 

@@ -9,8 +9,8 @@ from colonnade.dynamics.models import MODELS
 from colonnade.errors import CampaignError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.workflow import maps as plans
+from colonnade.workflow.asked import picked
 from colonnade.workflow.maps import Measured, Wanted
-from colonnade.workflow.real_column import picked
 from every import every
 
 FEW = Wanted(models=("linear",), points=(3, 4), cycles=2.0)

@@ -25,10 +25,10 @@ from colonnade.errors import count
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice
+    from colonnade.workflow.asked import Given
     from colonnade.workflow.assessing import Assessed
     from colonnade.workflow.foresee import AskedForecast, Forecast
     from colonnade.workflow.maps import MapMade, Wanted
-    from colonnade.workflow.real_column import Given
     from colonnade.workflow.spectrum import AskedSpectrum
 
 
@@ -86,7 +86,7 @@ def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None
     table must do; "enough" means that no test of this kind is needed. A Span is advised at most a fifth above the
     largest that was tested. The settings are in [next], the limits of the table in [table]. Nothing is written.
     """
-    from colonnade.workflow.advising.next import advise
+    from colonnade.workflow.advising import advise
     from colonnade.workflow.product import Catalogue
 
     loaded, layout = options.opened(campaign, results)
@@ -198,9 +198,9 @@ def fragility(
     An interrupted assessment of the campaign is continued.
     """
     from colonnade.report.assessments_page import curves
+    from colonnade.workflow.asked import needs_specimen
     from colonnade.workflow.assessing import assess
     from colonnade.workflow.executors import Where
-    from colonnade.workflow.real_column import needs_specimen
 
     expect_places(out, data)
     loaded, layout = options.opened(campaign, choices["results"]) if name or needs_specimen(given) else (None, None)

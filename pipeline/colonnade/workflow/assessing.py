@@ -20,10 +20,10 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.store.results import ResultId
+from colonnade.workflow.asked import OWN, Given, checked, find_column
 from colonnade.workflow.executors import MOST_BLOCKS, Arrays, Run, Where, in_blocks
 from colonnade.workflow.graph import FORMATS, Graph, expect_known
 from colonnade.workflow.product import Catalogue, Product
-from colonnade.workflow.real_column import OWN, Given, checked, find_column
 from colonnade.workflow.summary import record_of_assessment
 from colonnade.workflow.walk import walking
 

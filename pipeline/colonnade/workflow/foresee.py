@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,15 +23,15 @@ from colonnade.interruption import expect_none
 from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
+from colonnade.workflow.asked import AskedMotion, motion_asked_for
 from colonnade.workflow.executors import Counted
 from colonnade.workflow.graph import Graph, expect_known, one_specimen, restitution_taken
-from colonnade.workflow.motions import AskedMotion, motion_asked_for
 from colonnade.workflow.product import Catalogue, stored_attributes
 
 if TYPE_CHECKING:
     from colonnade.dynamics.history import History
 
-MADE_BY = ("colonnade.workflow.foresee", "colonnade.workflow.motions", "colonnade.stages.forecast")
+MADE_BY = ("colonnade.workflow.foresee", "colonnade.workflow.asked", "colonnade.stages.forecast")
 """Modules whose code makes forecasts; what they import counts too."""
 
 SEED = 0
@@ -39,10 +39,6 @@ SEED = 0
 
 LEAST_MEMBERS = 2
 """Of a forecast, however few an ensemble has: their spread is what it says."""
-
-SPREAD = ("restitution", "restitution_freedom", "critical_angle", "p", "correlations")
-"""Of an `Uncertainty`, what is known of the specimen."""
-
 
 _FACTOR = re.compile(r"\s*([0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?)\s*[x×]\s*", re.IGNORECASE)
 
@@ -198,23 +194,18 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
 
     pooled, settings = restitution_taken(campaign, layout, specimen), campaign.ensemble_settings(specimen)
     block = campaign.block(specimen)
-    spread = spread_of(pooled, settings)
-    negative, positive = sides(pooled)
+    spread = replace(spread_of(pooled, settings), gain=settings.gain, clock=settings.clock)
     ends = {name: float(pooled[f"restitution_{name}"]) for name in ("low", "high")}
     return forms.ForecastInputs(
         block=forms.ForecastBlock.of(centre(pooled, block)),
         restitution=forms.ForecastRestitution(
-            value=(max(negative, 0.0), max(positive, 0.0)),
+            value=sides(pooled),
             **{name: min(max(end, 0.0), 1.0) if np.isfinite(end) else None for name, end in ends.items()},
             level=float(pooled["level"]),
             source=pooled.attrs["restitution_source"],
             rigid_body=(block.restitution, block.restitution),
         ),
-        spread=forms.ForecastSpread(
-            **{name: getattr(spread, name) for name in SPREAD},
-            gain=settings.gain,
-            clock=settings.clock,
-        ),
+        spread=forms.ForecastSpread.model_validate(spread, from_attributes=True),
         table_tilt=tilt,
         rest_angle=campaign.processing.predict.rest_angle,
         members=max(settings.members, LEAST_MEMBERS),

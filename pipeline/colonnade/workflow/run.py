@@ -141,7 +141,7 @@ def _reported(walk: Walk, outdated: Collection[str], summary: Summary) -> Path:
     graph, campaign, workers = walk.graph, walk.graph.campaign, walk.where.workers
     advice: list[Advice] = []
     if campaign.awaited or campaign.next.model_fields_set or campaign.table.model_fields_set:
-        from colonnade.workflow.advising.next import advise
+        from colonnade.workflow.advising import advise
 
         advice = advise(campaign, graph.layout, graph.catalogue, workers=workers)
     return Report(graph, outdated, summary.forecasts, advice, photos, workers).bring_up_to_date()

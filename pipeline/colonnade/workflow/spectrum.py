@@ -26,8 +26,7 @@ from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
 from colonnade.store.records.assessment import level
 from colonnade.units.text import NOTHING, acceleration, number, quantity, ratio
-from colonnade.workflow.motions import motion_asked_for
-from colonnade.workflow.real_column import FoundColumn, Given, find_column
+from colonnade.workflow.asked import FoundColumn, Given, find_column, motion_asked_for
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Picture

@@ -38,7 +38,7 @@ class Asking(click.RichCommand):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run it."""
-        from colonnade.workflow.real_column import picked
+        from colonnade.workflow.asked import picked
 
         found = {str(each.name): ctx.params.pop(each.name) for each in self._keys}
         given = {key: value for key, value in found.items() if value not in (None, ())}
@@ -154,7 +154,7 @@ def column_keys(*more: str) -> list[click.Option]:
     """Make the options that say which column: its sizes, and keys of [prototype.<specimen>]: e, α, p and `more`."""
     from colonnade.campaign.assessment import Prototype
     from colonnade.campaign.specimen import SIZED
-    from colonnade.workflow.real_column import Which
+    from colonnade.workflow.asked import Which
 
     return [
         *options_of(Which),

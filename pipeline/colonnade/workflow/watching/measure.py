@@ -6,6 +6,7 @@ import json
 import shlex
 import subprocess
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -124,13 +125,10 @@ def command_of(text: str) -> list[str]:
     >>> command_of("notify-send 'A test'")
     ['notify-send', 'A test']
     """
-    try:
-        parts = shlex.split(text)
-    except ValueError as error:
-        raise CampaignError(f"--notify {text!r}: this is not a command ({error}).") from None
-    if not parts:
-        raise CampaignError("--notify: it is empty. A program and its arguments were expected.")
-    return parts
+    with suppress(ValueError):
+        if parts := shlex.split(text):
+            return parts
+    raise CampaignError(f"--notify {text!r}: A program and its arguments were expected, with each quote closed.")
 
 
 def notify(command: Sequence[str], line: Mapping[str, Any]) -> str:

@@ -23,7 +23,7 @@ from colonnade.report.addresses import EVERY, state_script
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
-from colonnade.workflow.advising.next import advise_after
+from colonnade.workflow.advising import advise_after
 from colonnade.workflow.executors import settle_in
 from colonnade.workflow.lock import is_refusal, only_watch
 from colonnade.workflow.product import marks_of

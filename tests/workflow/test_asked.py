@@ -8,7 +8,7 @@ from colonnade.campaign import load
 from colonnade.campaign.assessment import Prototype
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
-from colonnade.workflow.real_column import find_column
+from colonnade.workflow.asked import find_column
 from every import every
 
 

@@ -1,5 +1,6 @@
-"""Advice on sine tests: between the outcomes, within the risk, for tested and for planned frequencies."""
+"""The advice of a campaign: by its last run, for its own specimens, of tested and planned frequencies and Spans."""
 
+import re
 from math import pi, tan
 
 import numpy as np
@@ -8,11 +9,63 @@ import pytest
 from colonnade.campaign import load
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store.records.summary import read_summary
-from colonnade.workflow.advising.sine import STEP, _limits, advise_earthquakes, advise_sines
+from colonnade.workflow import advising
+from colonnade.workflow.advising import STEP, _limits, advise, advise_after, advise_earthquakes, advise_sines
+from colonnade.workflow.product import Catalogue
 from foreseeing import foreseen_of
 from prism import entry
+
+
+def advised(small, *specimens):
+    return advise(load(small.folder).awaiting(), small.layout, Catalogue(small.layout), specimens)
+
+
+def test_free_vibrations_are_advised_from_the_pooled_restitution(undisturbed):
+    (free,) = advised(undisturbed)
+    assert (free.specimen, free.kind) == ("prism", "free-vibration")
+    assert (free.is_enough, free.left) == (True, 0)
+    assert re.fullmatch(r"e 0\.9[23].* from 2, as narrow as wanted", free.reason)
+
+
+def test_what_cannot_be_advised_is_refused(small):
+    with pytest.raises(CampaignError, match='no specimen "prsm"'):
+        advised(small, "prsm")
+    small.layout.summary_json.unlink()
+    with pytest.raises(StoreError, match="Run `colonnade run` first"):
+        advised(small)
+
+
+def test_after_a_test_only_its_own_kind_is_advised(undisturbed):
+    campaign, summary = load(undisturbed.folder), read_summary(undisturbed.layout)
+    assert summary is not None
+    (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests)
+    assert free.kind == "free-vibration"
+    assert advise_after(campaign, undisturbed.layout, "pulse-01", summary.tests) == []
+
+
+def test_the_report_advises_while_tests_are_planned(small, monkeypatch):
+    small.complete()
+    assert "What next" not in small.layout.report.read_text(encoding="utf-8")
+
+    campaign_file = small.folder / "campaign.toml"
+    campaign_file.write_text(campaign_file.read_text() + '\n[table]\nstroke = "75 mm"\n')
+    small.complete()
+    text = small.layout.report.read_text(encoding="utf-8")
+    (free,) = advised(small)
+    assert "What next" in text
+    assert free.row()[-1].replace("<", "&lt;") in text
+
+    def refuse(*_):
+        raise AssertionError("advice was made again")
+
+    monkeypatch.setattr(advising, "advise_kind", refuse)
+    small.layout.report.unlink()
+    small.complete()
+    assert "What next" in small.layout.report.read_text(encoding="utf-8")
+
 
 OMEGA = 5.0
 
@@ -22,7 +75,7 @@ def campaign(undisturbed):
     return load(undisturbed.folder)
 
 
-def advised(campaign, *outcomes):
+def next_sine(campaign, *outcomes):
     points = [MapPoint(f"sine-{place}", OMEGA, ratio, outcome) for place, (ratio, outcome) in enumerate(outcomes)]
     return advise_sines(campaign, "prism", points, (0.93, 0.93), 0.002)
 
@@ -30,7 +83,7 @@ def advised(campaign, *outcomes):
 def test_the_advised_amplitude_is_between_the_outcomes(campaign):
     (predicted,) = _limits(campaign.block("prism"), 0.0, np.array([OMEGA]), "nonlinear", (0.93, 0.93))
     low, high = 0.9 * predicted, 1.2 * predicted
-    (advice,) = advised(campaign, (low, "rocking"), (high, "overturned"))
+    (advice,) = next_sine(campaign, (low, "rocking"), (high, "overturned"))
     assert low < advice.values["amplitude_ratio"] < high
     assert 0.3 < advice.risk < 0.7
     assert advice.left is None or advice.left > 0
@@ -40,14 +93,14 @@ def test_the_advised_amplitude_is_between_the_outcomes(campaign):
 
 
 def test_without_sine_tests_nothing_is_advised(campaign):
-    assert advised(campaign) == []
+    assert next_sine(campaign) == []
 
 
 def test_a_planned_frequency_is_advised_too(undisturbed, tmp_path):
     text = (undisturbed.folder / "campaign.toml").read_text(encoding="utf-8")
     text += entry("s", "sine", 'frequency = "4 Hz"', "planned = true")
     (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
-    (advice,) = advised(load(tmp_path))
+    (advice,) = next_sine(load(tmp_path))
     assert advice.values["frequency"] == pytest.approx(4.0)
     assert advice.test.startswith("4 Hz at ")
 
