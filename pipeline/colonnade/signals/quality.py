@@ -180,10 +180,8 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     if known.sum() < FEWEST:
         return Verdict.good(values.size)
     filled = filled_in(values)
-    every = max(1, (values.size - 2) // ENOUGH)
-    bends = filled[:-2:every] - 2 * filled[1:-1:every] + filled[2::every]
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
-    typical = max(1.4826 * float(np.median(np.abs(bends))), _smallest_step(filled))
+    typical = max(_typical_bend(filled), _smallest_step(filled))
     for part in blocks(values.size):
         begin = max(part.start - NEIGHBOURHOOD, 0)
         places = begin + _standing_out(filled[begin : part.stop + NEIGHBOURHOOD], threshold, typical)
@@ -209,6 +207,12 @@ def _standing_out(values: Array, threshold: float, typical: float) -> NDArray[np
     around = sliding_window_view(np.pad(bends, NEIGHBOURHOOD // 2, mode="edge"), NEIGHBOURHOOD)[places - 1]
     roughness: Array = np.quantile(around, 0.9, axis=1, method="lower") / 1.645
     return np.asarray(places[height > threshold * roughness])
+
+
+def _typical_bend(values: Array) -> float:
+    """Robust standard deviation of the second difference."""
+    every = max(1, (values.size - 2) // ENOUGH)
+    return 1.4826 * float(np.median(np.abs(values[:-2:every] - 2 * values[1:-1:every] + values[2::every])))
 
 
 def _smallest_step(values: Array) -> float:
@@ -249,21 +253,20 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
     if np.isfinite(values).sum() < 4 * FIRST:
         return Verdict.good(values.size)
     filled = filled_in(values)
-    noise = 1.4826 * float(np.median(np.abs(np.diff(filled, 2)))) / np.sqrt(6.0)
-    noise = max(noise, 0.3 * _smallest_step(filled))
+    noise = max(_typical_bend(filled) / np.sqrt(6.0), 0.3 * _smallest_step(filled))
     resting = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()])
     for signed, rest in ((filled, resting.max()), (-filled, -resting.min())):
         top = float(signed.max())
         if not top - rest > AWAY * float(np.ptp(filled)):
             continue
-        for start, stop in zip(*stretches(signed > top - BAND * noise), strict=True):
-            half = (stop - start) // 2
-            if stop - start < FEWEST_AT_RAIL or start < half or stop + half > signed.size:
-                continue
-            if time[stop - 1] - time[start] > longest or signed[start + 1 : stop - 1].std() > LEVEL * noise:
-                continue
-            if top - max(signed[start - half], signed[stop + half - 1]) > STEEP * BAND * noise:
-                where[start:stop] = True
+        starts, stops = stretches(signed > top - BAND * noise)
+        half = (stops - starts) // 2
+        is_whole = (stops - starts >= FEWEST_AT_RAIL) & (starts >= half) & (stops + half <= signed.size)
+        starts, stops, half = starts[is_whole], stops[is_whole], half[is_whole]
+        is_steep = top - np.maximum(signed[starts - half], signed[stops + half - 1]) > STEEP * BAND * noise
+        is_steep &= ~(time[stops - 1] - time[starts] > longest)
+        for start, stop in zip(starts[is_steep], stops[is_steep], strict=True):
+            where[start:stop] |= signed[start + 1 : stop - 1].std() <= LEVEL * noise
     level = float(np.abs(values[where]).max(initial=0.0))
     reason = (
         f"{counted(where)} stay at {level:.4g} (as recorded){first_at(time, where)}, between steep flanks: the channel "
@@ -301,5 +304,6 @@ def counted(where: Mask) -> str:
 
 def first_at(time: Array, where: Mask) -> str:
     """Say when the first of these samples was; empty if its time is not known."""
-    known = time[where & np.isfinite(time)]
+    times = time[where]
+    known = times[np.isfinite(times)]
     return f", the first at {known[0]:.4g} s" if known.size else ""
