@@ -181,7 +181,7 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
         return Verdict.good(values.size)
     filled = filled_in(values)
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
-    typical = max(_typical_bend(filled), _smallest_step(filled))
+    typical = _or_smallest_step(_typical_bend(filled), filled)
     for part in blocks(values.size):
         begin = max(part.start - NEIGHBOURHOOD, 0)
         places = begin + _standing_out(filled[begin : part.stop + NEIGHBOURHOOD], threshold, typical)
@@ -215,11 +215,15 @@ def _typical_bend(values: Array) -> float:
     return 1.4826 * float(np.median(np.abs(values[:-2:every] - 2 * values[1:-1:every] + values[2::every])))
 
 
-def _smallest_step(values: Array) -> float:
-    """Smallest change between neighbours; 0 if it has none."""
-    parts = (np.abs(np.diff(values[part.start : part.stop + 1])) for part in blocks(values.size - 1))
-    smallest = min(float(steps[steps > 0].min(initial=np.inf)) for steps in parts)
-    return smallest if np.isfinite(smallest) else 0.0
+def _or_smallest_step(known: float, values: Array) -> float:
+    """Return the smallest change between neighbours, if it is larger than what is known."""
+    smallest = np.inf
+    for part in blocks(values.size - 1):
+        steps = np.abs(np.diff(values[part.start : part.stop + 1]))
+        smallest = min(smallest, float(steps[steps > 0].min(initial=np.inf)))
+        if smallest <= known:
+            return known
+    return smallest if np.isfinite(smallest) else known
 
 
 def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
@@ -250,14 +254,14 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
     flanks are steep. What stays for longer than `longest` (s) is held there.
     """
     where = np.zeros(values.size, dtype=bool)
-    if np.isfinite(values).sum() < 4 * FIRST:
+    if np.count_nonzero(np.isfinite(values)) < 4 * FIRST:
         return Verdict.good(values.size)
     filled = filled_in(values)
-    noise = max(_typical_bend(filled) / np.sqrt(6.0), 0.3 * _smallest_step(filled))
-    resting = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()])
+    noise = 0.3 * _or_smallest_step(_typical_bend(filled) / (0.3 * np.sqrt(6.0)), filled)
+    resting, extent = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()]), float(np.ptp(filled))
     for signed, rest in ((filled, resting.max()), (-filled, -resting.min())):
         top = float(signed.max())
-        if not top - rest > AWAY * float(np.ptp(filled)):
+        if not top - rest > AWAY * extent:
             continue
         starts, stops = stretches(signed > top - BAND * noise)
         half = (stops - starts) // 2
@@ -278,7 +282,7 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
 def check_torn(time: Array, values: Array) -> Verdict:
     """Flag what follows a jump, far faster than all other motion, after which a channel that moved stands still."""
     where = np.zeros(values.size, dtype=bool)
-    if np.isfinite(values).sum() < 4 * FIRST:
+    if np.count_nonzero(np.isfinite(values)) < 4 * FIRST:
         return Verdict.good(values.size)
     filled = filled_in(values)
     steps = np.abs(np.diff(filled))
@@ -299,7 +303,7 @@ def check_torn(time: Array, values: Array) -> Verdict:
 
 def counted(where: Mask) -> str:
     """Say how many samples."""
-    return count(int(where.sum()), "sample")
+    return count(int(np.count_nonzero(where)), "sample")
 
 
 def first_at(time: Array, where: Mask) -> str:
