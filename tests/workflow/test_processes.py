@@ -23,10 +23,10 @@ except KeyboardInterrupt:
 """
 IMPORT = """
 import sys, time
-from colonnade.workflow.executors import spread
+from colonnade.workflow.executors import Where, spread
 print("going", flush=True)
 try:
-    list(spread(time.sleep, [600] * 9, workers=2))
+    list(spread(time.sleep, [600] * 9, Where(workers=2)))
     sys.exit("too late")
 except KeyboardInterrupt:
     sys.exit(130)
@@ -34,8 +34,8 @@ except KeyboardInterrupt:
 # Of two workers one at least is never given anything: a single number is there.
 WAIT = """
 import time
-from colonnade.workflow.executors import spread
-list(spread(abs, [-1, -2], workers=3))
+from colonnade.workflow.executors import Where, spread
+list(spread(abs, [-1, -2], Where(workers=3)))
 print("going", flush=True)
 time.sleep(600)
 """

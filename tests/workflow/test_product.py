@@ -35,7 +35,7 @@ def test_the_first_part_that_changed_of_what_it_reads_its_settings_and_its_code_
     for other in OTHERS[because]:
         assert why(other, told) == because
         assert why(replace(other, id=ResultId("a", "ingest")), told) == because.replace("upstream", "raw file")
-    assert len({ROCKING.key, *(other.key for other in OTHERS[because])}) == len(OTHERS[because]) + 1
+    assert len({ROCKING.key(), *(other.key() for other in OTHERS[because])}) == len(OTHERS[because]) + 1
 
 
 @pytest.mark.parametrize("stored", [{}, {"key": "aa"}, {"key": "aa", "ingredients": "{"}])

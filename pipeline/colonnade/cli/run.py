@@ -229,9 +229,9 @@ def _checked_record(campaign: Campaign, checked: RunResult) -> dict[str, Any]:
     found: dict[str, Any] = {"campaign": campaign.path, "warnings": records_of(findings.get("campaign file", ()))}
     found |= {"tests": {}, "assessments": {}}
     for stage in checked.stages:
-        nothing = {"problems": [], "warnings": records_of(findings.get(stage.heading, ()))}
-        own = found[f"{stage.of}s"].setdefault(stage.subject, nothing)
-        own["problems"] += [stage.reason] if stage.action == "failed" else []
+        problems = [stage.reason] if stage.action == "failed" else []
+        warnings = records_of(findings.get(stage.heading, ()))
+        found[f"{stage.of}s"][stage.subject] = {"problems": problems, "warnings": warnings}
     return found
 
 
@@ -243,12 +243,12 @@ def _show_checked(checked: RunResult, drawing: Path | None) -> None:
 
 def _verdict(checked: RunResult) -> tuple[str, str]:
     """Say in a line how many tests are good, and give its colour."""
-    failing = dict.fromkeys((stage.of, stage.subject) for stage in checked.stages if stage.action == "failed")
-    whole = [stage for stage in checked.stages if stage.action == "done" and stage.of == "test"]
-    statuses = Counter("would fail" if (each.of, each.subject) in failing else _good(checked, each) for each in whole)
+    failing = [stage for stage in checked.stages if stage.action == "failed"]
+    whole = [stage for stage in checked.stages if stage.of == "test"]
+    statuses = Counter("would fail" if each in failing else _good(checked, each) for each in whole)
     tests = count(len(whole), "test")
     parts = [f"{statuses[each]} {each}" for each in ("would fail", WRONG, "good") if statuses[each]]
-    if unanswered := sum(of == "assessment" for of, _ in failing):
+    if unanswered := sum(each.of == "assessment" for each in failing):
         parts.append(f"{count(unanswered, 'assessment')} would fail")
     if failing or statuses[WRONG]:
         return f"{tests}: {', '.join(parts)}.", STYLES[Severity.SERIOUS]

@@ -14,7 +14,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.results import RUN_STAGES, models_of
 from colonnade.workflow.assessing import planned
 from colonnade.workflow.chain import WORKER_LOST, RunResult, StageRun
-from colonnade.workflow.executors import Counted, spread
+from colonnade.workflow.executors import Counted, Where, spread
 from colonnade.workflow.graph import Graph, copies, restitution_taken
 from colonnade.workflow.product import Catalogue, Product
 
@@ -48,7 +48,7 @@ def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> R
     graph = Graph(campaign, layout, Catalogue(layout))
     same = copies(campaign, {name: graph.raw(test) for name, test in campaign.tests.items()})
     campaign = campaign.warned(same)
-    found, waiting = dict[str, list[StageRun]](), []
+    found, waiting = dict[str, StageRun](), []
     for name, test in campaign.tests.items():
         if reason := campaign.left_out(name):
             kind = "excluded" if campaign.review(name).excluded else "planned"
@@ -57,27 +57,26 @@ def check(campaign: Campaign, progress: Counted = lambda done, total: None) -> R
             products = [each for each in graph.of_test(test) if each.result.order <= RUN_STAGES.index("rocking")]
             waiting.append((campaign.but(tests={name: test}), test, products))
     progress(len(found), total)
-    for number, stages in spread(_checked, waiting, workers=None if len(waiting) >= MANY else 1, lost=_lost):
-        found[waiting[number][1].id] = stages
+    here = Where(workers=None if len(waiting) >= MANY else 1)
+    for _, checked in spread(_checked, waiting, here, lost=_lost):
+        found[checked.subject] = checked
         progress(len(found), total)
-    runs = [stage for name in campaign.tests for stage in found[name]]
-    for asked in campaign.assessments.items():
-        runs += _records_checked(campaign, layout, *asked)
+    runs = [found[name] for name in campaign.tests]
+    runs += [_records_checked(campaign, layout, *asked) for asked in campaign.assessments.items()]
     concerning = {name: campaign.concerning(name) for name in campaign.tests}
     return RunResult(tuple(runs), layout.summary_json, None, campaign.warnings, concerning)
 
 
-def _found(subject: str, findings: Iterable[Finding], problem: str = "", stage: str = "ingest") -> list[StageRun]:
-    """Say why something would fail, and give all that was found last."""
-    failed = [StageRun(subject, stage, "failed", reason=problem)] if problem else []
-    return [*failed, StageRun(subject, stage, "done", findings=tuple(findings))]
+def _found(subject: str, findings: Iterable[Finding], problem: str = "", stage: str = "ingest") -> StageRun:
+    """Give all that was found, and say why something would fail."""
+    return StageRun(subject, stage, "failed" if problem else "done", reason=problem, findings=tuple(findings))
 
 
-def _lost(unchecked: _Unchecked) -> list[StageRun]:
+def _lost(unchecked: _Unchecked) -> StageRun:
     return _found(unchecked[1].id, [], WORKER_LOST)
 
 
-def _checked(unchecked: _Unchecked) -> list[StageRun]:
+def _checked(unchecked: _Unchecked) -> StageRun:
     campaign, test, products = unchecked
     made, findings = dict[Path, "xr.Dataset"](), list[Finding]()
     try:
@@ -103,7 +102,7 @@ def _begun(campaign: Campaign, test: Test, measured: xr.Dataset) -> Iterator[Fin
         yield from at_stage(begin(measured, predict.PredictInputs.of(campaign, test, model)).warnings, "predict")
 
 
-def _records_checked(campaign: Campaign, layout: Layout, name: str, asked: Assessment) -> list[StageRun]:
+def _records_checked(campaign: Campaign, layout: Layout, name: str, asked: Assessment) -> StageRun:
     """Read the ground motions and the hazard of an assessment, and plan it; no history is run."""
     from colonnade.stages.assessment_plan import AssessmentInputs
 

@@ -48,6 +48,31 @@ class WorkersEndedError(ColonnadeError):
     """Workers were stopped, or their scheduler ended, before the work was done: it may succeed later."""
 
 
+Counted = Callable[[int, int], None]
+"""Told how many blocks are done, and of how many."""
+
+
+class Where(NamedTuple):
+    """
+    Where work is done, and who is told of its blocks.
+
+    Attributes
+    ----------
+    workers : int or None
+        Processes of this machine; one a core by default. With one, all is done in this process.
+    scheduler : str or None
+        Address of a running Dask scheduler, as "tcp://10.0.0.1:8786": its workers are used instead.
+    progress : callable
+    """
+
+    workers: int | None = None
+    scheduler: str | None = None
+    progress: Counted = lambda done, total: None
+
+
+HERE = Where()
+
+
 class Workers(NamedTuple):
     """
     Workers to hand items to.
@@ -69,9 +94,7 @@ class Workers(NamedTuple):
 def spread(
     work: Callable[[Item], Result],
     items: Sequence[Item],
-    *,
-    workers: int | None = None,
-    scheduler: str | None = None,
+    where: Where = HERE,
     lost: Callable[[Item], Result] | None = None,
 ) -> Iterator[tuple[int, Result]]:
     """
@@ -83,10 +106,7 @@ def spread(
         A function of a module, not a lambda: other processes import it.
     items : sequence
         Arguments of the calls, small enough to send.
-    workers : int, optional
-        Processes of this machine; one a core by default. With one, all is done in this process.
-    scheduler : str, optional
-        Address of a running Dask scheduler, as "tcp://10.0.0.1:8786": its workers are used instead.
+    where : Where, optional
     lost : callable, optional
         Gives the result of an item that lost its worker even when it was alone; without it that is an error.
 
@@ -104,14 +124,14 @@ def spread(
     ColonnadeError
         If the cluster is not there or runs other code.
     """
-    if scheduler is not None:
+    if where.scheduler is not None:
         if items:
-            with _on_cluster(scheduler) as there:
+            with _on_cluster(where.scheduler) as there:
                 yield from _handed_out(there, partial(_as_here, work, package_hash()), dict(enumerate(items)))
         return
     import joblib
 
-    count = min(workers or joblib.cpu_count(), len(items))
+    count = min(where.workers or joblib.cpu_count(), len(items))
     if count <= 1:
         for number, item in enumerate(items):
             expect_none()
@@ -251,9 +271,7 @@ def _on_cluster(scheduler: str) -> Iterator[Workers]:
                 f"{scheduler}: its workers cannot import colonnade ({error}). Install this version of colonnade, with "
                 "the same packages, where they run."
             ) from error
-        except distributed.KilledWorker as error:
-            raise _ended(scheduler, "its workers were stopped several times over the same work") from error
-        except (CancelledError, distributed.CancelledError) as error:
+        except (CancelledError, distributed.CancelledError, distributed.KilledWorker) as error:
             raise _ended(scheduler) from error
 
 
@@ -276,10 +294,11 @@ def _cancel(pending: Iterable[Future[Any]]) -> None:
             future.cancel()
 
 
-def _ended(scheduler: str, what: str = "the scheduler of the Dask cluster ended before the work was done") -> Exception:
+def _ended(scheduler: str) -> Exception:
     return WorkersEndedError(
-        f"{scheduler}: {what}. Finished results are kept, and nothing more is written. Start the cluster again, with "
-        "more memory for each worker if it ran out, and run again, or run without --scheduler."
+        f"{scheduler}: the Dask cluster ended before the work was done, or its workers were stopped several times over "
+        "the same work. Finished results are kept, and nothing more is written. Start the cluster again, with more "
+        "memory for each worker if it ran out, and run again, or run without --scheduler."
     )
 
 
@@ -305,22 +324,8 @@ Arrays = dict[str, NDArray[Any]]
 Run = Callable[..., list[Arrays]]
 """Works on blocks, as `in_blocks` of a place and a key: takes the work, the blocks and, of several kinds, `part`."""
 
-Counted = Callable[[int, int], None]
-"""Told how many blocks are done, and of how many."""
-
 MOST_BLOCKS = 128
 """Of a map: enough for any cluster, and few enough to keep."""
-
-
-class Where(NamedTuple):
-    """Where blocks are worked on, as of `spread`, and who is told of them."""
-
-    workers: int | None = None
-    scheduler: str | None = None
-    progress: Counted = lambda done, total: None
-
-
-HERE = Where()
 
 
 def blocks_of(number: int) -> list[range]:
@@ -374,7 +379,7 @@ def in_blocks(
     missing = [number for number in range(len(blocks)) if number not in found]
     where.progress(len(found), len(blocks))
     asked = [blocks[number] for number in missing]
-    for place, arrays in spread(work, asked, workers=where.workers, scheduler=where.scheduler):
+    for place, arrays in spread(work, asked, where):
         files.write_stream(paths[missing[place]], partial(_write, arrays))
         found[missing[place]] = dict(arrays)
         where.progress(len(found), len(blocks))

@@ -269,20 +269,15 @@ class Product:
         }
         return {"upstream": upstream, "settings": hash_of(self.inputs), "code": self.code}
 
-    def _key(self, ingredients: Mapping[str, Any]) -> str:
+    def key(self, look: Look = lambda path: {}) -> str:
+        """Hash of all that it is made from, which is kept with it; if it differs, that is out of date."""
         kind = self.id.stage if isinstance(self.id, ResultId) else self.id.partition(" ")[0]
-        return hash_of({"stage": kind, "content": _CONTENT, **ingredients})
-
-    @property
-    def key(self) -> str:
-        """Hash that is kept with what is no result; if it differs, that is out of date."""
-        return self._key(self._ingredients(lambda path: {}))
+        return hash_of({"stage": kind, "content": _CONTENT, **self._ingredients(look)})
 
     def attributes(self, look: Look) -> dict[str, str]:
         """What is stored with a result: its key, and its ingredients, so that `why` can say what changed since."""
-        ingredients = self._ingredients(look)
-        told = json.dumps(ingredients, sort_keys=True)
-        return {"key": self._key(ingredients), "ingredients": told, "settings": self.inputs}
+        told = json.dumps(self._ingredients(look), sort_keys=True)
+        return {"key": self.key(look), "ingredients": told, "settings": self.inputs}
 
     def why(self, look: Look) -> str:
         """
@@ -302,7 +297,7 @@ class Product:
         if self.is_asked:
             return "asked for"
         stored, now = look(self.paths[0]), self._ingredients(look)
-        if stored.get("key") == self._key(now):
+        if stored.get("key") == self.key(look):
             return ""
         try:
             before = json.loads(stored.get("ingredients", ""))
@@ -314,7 +309,7 @@ class Product:
 
 def known(product: Product, catalogue: Catalogue) -> Made | None:
     """Return a product if it is up to date."""
-    key = product.key
+    key = product.key()
     made = catalogue.kept(str(product.id), key)
     if made is None or not (made.reason or all(catalogue.stamp(path) == key for path in product.paths)):
         return None
@@ -352,9 +347,9 @@ def brought_up_to_date(
             found[str(product.id)] = there
         else:
             waiting.append(product)
-    processes = workers if len(waiting) >= WORTH_A_PROCESS else 1
-    for number, ((contents, text), reason, is_lasting) in spread(_make, waiting, workers=processes):
-        product, key = waiting[number], waiting[number].key
+    where = Where(workers if len(waiting) >= WORTH_A_PROCESS else 1)
+    for number, ((contents, text), reason, is_lasting) in spread(_make, waiting, where):
+        product, key = waiting[number], waiting[number].key()
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))
             catalogue.stamp(path)

@@ -208,77 +208,57 @@ def finding_of(refused: Refused) -> Finding:
 
 
 def foreseen_of(layout: Layout, forecasts: Forecasts, chosen: Chosen) -> Foreseen:
-    """
-    Gather what the summary says of forecasts.
-
-    Parameters
-    ----------
-    layout : Layout
-    forecasts : Forecasts
-    chosen : Chosen
-    """
-    scored, records = {}, {}
+    """Gather what the summary says of forecasts, of which those that count have been scored."""
+    records, scored = {}, dict[str, "xr.Dataset"]()
     for test, known in chosen.counts.items():
         blind = chosen.blind[known.name]
         scores = read_done(layout.stage(test, "forecast")) if blind else None
-        if scores is not None and scores.attrs["file"] != known.name:  # those of another forecast
-            scores = None
-        reason = NOT_MEASURED if scores is None else str(scores.attrs["reason"])
-        if scores is not None and "observed_amplitude" in scores:
-            scored[test] = scores
+        if scores is None or scores.attrs["file"] != known.name:  # those of another forecast
+            reason = NOT_MEASURED if blind else NOT_BLIND
+        else:
+            reason = str(scores.attrs["reason"])
+            if "observed_amplitude" in scores:
+                scored[test] = scores
         records[test] = TestForecast(
             file=known.name,
             made=f"{known.forecast.made:%Y-%m-%dT%H:%M:%SZ}",
             level=known.forecast.level,
             blind=blind,
-            reason=(reason if blind else NOT_BLIND) or None,
+            reason=reason or None,
             models={name: _of_model(name, model, scored.get(test)) for name, model in known.forecast.models.items()},
         )
-    return records, _together(forecasts, chosen, scored)
-
-
-def _together(forecasts: Forecasts, chosen: Chosen, scored: Mapping[str, xr.Dataset]) -> ForecastsSummary | None:
-    """Return the summary of all forecasts, given the scores by test; None without a forecast file."""
     if not (forecasts.known or forecasts.refused):
-        return None
+        return records, None
     from colonnade.store.records.forecast import judge
 
     names = {chosen.counts[test].name for test in scored}
-    return ForecastsSummary(
+    entries = [
+        ForecastEntry(
+            file=known.name,
+            sha256=known.sha256,
+            test=known.forecast.test,
+            blind=chosen.blind.get(known.name),
+            scored=known.name in names,
+        )
+        for known in forecasts.known
+    ]
+    entries += [ForecastEntry(file=each.name, refused=each.reason) for each in forecasts.refused]
+    return records, ForecastsSummary(
         count=len(forecasts.known),
         blind=sum(chosen.blind.values()),
-        models=judge({test: chosen.counts[test].forecast for test in scored}, scored) if scored else {},
-        files=(
-            *(
-                ForecastEntry(
-                    file=known.name,
-                    sha256=known.sha256,
-                    test=known.forecast.test,
-                    blind=chosen.blind.get(known.name),
-                    scored=known.name in names,
-                )
-                for known in forecasts.known
-            ),
-            *(ForecastEntry(file=each.name, refused=each.reason) for each in forecasts.refused),
-        ),
+        models=judge({test: chosen.counts[test].forecast for test in scored}, scored),
+        files=tuple(entries),
     )
 
 
 def _of_model(name: str, model: ModelForecast, scores: xr.Dataset | None) -> ForecastOfModel:
     widest = max(model.bands, key=lambda band: band.probability)
-    found: dict[str, Any] = {}
-    pit = None
+    found: dict[str, Any] = {share: getattr(model, share) for share in ("no_rocking", "rocking", "overturned")}
     if scores is not None:
         own = scores.sel(model=name)
-        pit = float(own["forecast_pit"].sel(basis="on_target"))
+        found["pit"] = float(own["forecast_pit"].sel(basis="on_target"))
         for basis in map(str, own["basis"].to_numpy()):
             at = own.sel(basis=basis)
             values = ForecastScores(**{key: float(at[f"forecast_{key}"]) for key in ForecastScores.model_fields})
             found[basis] = None if values.crps is None else values
-    return ForecastOfModel(
-        **{share: getattr(model, share) for share in ("no_rocking", "rocking", "overturned")},
-        low=widest.low,
-        high=widest.high,
-        pit=pit,
-        **found,
-    )
+    return ForecastOfModel(low=widest.low, high=widest.high, **found)

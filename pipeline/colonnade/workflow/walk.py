@@ -177,8 +177,7 @@ class Walk:
                 yield runs
             else:
                 waiting.append(chain)
-        bring = partial(spread, bring_up_to_date, workers=where.workers, scheduler=where.scheduler)
-        yield from (runs for _, runs in bring(waiting, lost=worker_lost))
+        yield from (runs for _, runs in spread(bring_up_to_date, waiting, where, lost=worker_lost))
 
     def _chain(self, products: Sequence[Product]) -> Chain:
         return Chain(products, self.graph.layout, Origin.of(self.graph.campaign), self.run_id)
