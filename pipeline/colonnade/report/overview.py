@@ -391,10 +391,10 @@ def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[Stabili
     return [as_map(stored) for stored in found if stored.attrs.get("status") == "done"]
 
 
-def boundaries_of(points: Sequence[MapPoint]) -> list[tuple[str, str, str, str]]:
-    """Write what sine tests bracket: Ω, the brackets of rocking and of overturning, notes."""
+def boundaries_of(points: Sequence[MapPoint]) -> list[tuple[str, str, str]]:
+    """Write what sine tests bracket: Ω, the brackets of rocking and of overturning."""
     return [
-        (number(each.frequency_ratio, 4), _bracket(each.rocking), _bracket(each.overturning), "; ".join(each.notes))
+        (number(each.frequency_ratio, 4), _bracket(each.rocking), _bracket(each.overturning))
         for each in bracket_boundaries(points)
     ]
 
@@ -403,4 +403,6 @@ def _bracket(bracket: Bracket) -> str:
     below, above = number(bracket.below, 4), number(bracket.above, 4)
     if bracket.above is None:
         return NOTHING if bracket.below is None else f"above {below}"
-    return f"below {above}" if bracket.below is None else f"{below} – {above}"
+    place = f"below {above}" if bracket.below is None else f"{below} – {above}"
+    others = ", ".join(number(each, 3) for each in bracket.exceptions)
+    return f"{place}, but not at {others}" if others else place

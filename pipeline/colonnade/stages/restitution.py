@@ -96,8 +96,6 @@ def restitution(rocking: Dataset, inputs: RestitutionInputs) -> Dataset:
             "level": _number(result.level),
             "zero_offset": _number(result.zero_offset),
             "angle_scale": 1.0 if joint is None else exp(float(joint.mean[1]) + joint.gain),
-            "restitution_slope": _number(result.constancy.slope),
-            "restitution_slope_standard_error": _number(result.constancy.slope_standard_error),
             **_along(["peak"], PEAKS, result.peaks),
             **_along(["impact"], IMPACTS, result.impacts),
             **_along(["fitted_elapsed"], HISTORY, result.history),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import product
-from math import inf, log, pi
+from math import isfinite, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +12,6 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.plausibility.scale import (
-    LOOSE,
     MISLEADING,
     STANDING,
     SURE,
@@ -34,9 +33,6 @@ SAME_MOTION, OTHER_MOTION = 0.9, 0.5
 
 WRONG_DELAY = 0.03
 """s, from which on predictions are wrong."""
-
-SEEN = 0.2
-"""Logarithm of a ratio from which on the specimen shows which of two channels is wrong."""
 
 MISPLACED = ("late recorder", "table motion")
 """Kinds of findings of an acceleration that does not shake the specimen: no transducer is judged by it."""
@@ -144,8 +140,7 @@ def table_doubts(
         elif compared.delay:
             found.append(_late(one.name, compared, other.name))
         elif compared.differs and one.is_good and other.is_good:
-            wrong = wrong_one(compared.factor, by_specimen)
-            found.append(_disagreement(one, other, compared, wrong))
+            found.append(_disagreement(one, other, compared, by_specimen))
         else:
             agree = True
     if found or np.isnan(by_specimen):
@@ -163,22 +158,6 @@ def table_doubts(
     return [serious("gain", text)]
 
 
-def wrong_one(ratio: float, by_specimen: float) -> str:
-    """
-    Say which of two that differ is wrong, "acceleration" or "displacement"; empty if the specimen does not show it.
-
-    `ratio` is the acceleration over the second derivative of the displacement, `by_specimen` how many times too large
-    the acceleration is by what it does to the specimen.
-    """
-    if np.isnan(by_specimen) or (ratio > 0 and abs(log(ratio)) < SEEN):
-        return ""
-    # How far the other one is from what rocks the specimen.
-    scales = {"displacement": by_specimen, "acceleration": by_specimen / ratio}
-    apart = {wrong: abs(log(scale)) if scale > 0 else inf for wrong, scale in scales.items()}
-    wrong = min(apart, key=apart.__getitem__)
-    return wrong if apart[wrong] < log(LOOSE) else ""
-
-
 def _late(name: str, found: Comparison, other: str) -> Finding:
     """Say of an acceleration that it is late against a displacement."""
     delay, how = _written(1e3 * abs(found.delay), 1e3 * found.delay_error), "late" if found.delay > 0 else "early"
@@ -191,30 +170,28 @@ def _late(name: str, found: Comparison, other: str) -> Finding:
     )
 
 
-def _disagreement(acceleration: TableChannel, displacement: TableChannel, found: Comparison, wrong: str) -> Finding:
-    """Say what a ratio that differs means; `wrong` is of `wrong_one`."""
+def _disagreement(
+    acceleration: TableChannel, displacement: TableChannel, found: Comparison, by_specimen: float
+) -> Finding:
+    """Say what a ratio that differs means; the acceleration is `by_specimen` times what rocks the specimen."""
     name, other = acceleration.name, displacement.name
     which = f"one of the two is wrong, {name} or {other}"
-    if wrong:
-        which = f"the specimen's rocking shows that {other if wrong == 'displacement' else name} is wrong"
+    if isfinite(by_specimen):
+        which += f" (the specimen's rocking asks for {1 / by_specimen:.3g} × {name})"
     if found.factor < 0:
         return serious(
             "sign",
-            f"channel {name} and the second derivative of {other} have opposite signs: {which} (`direction`, or the "
-            "sign of the gain)",
+            f"channel {name} and the second derivative of {other} have opposite signs: {which}. Look at `direction` "
+            "and the sign of the gain",
         )
     why, ratio = cause(found.factor, "acceleration"), 1 / found.factor
     if why == UNKNOWN:
         why = "look at gain, range and AC coupling, or whether one of them is from the file of another test"
-    if wrong == "acceleration":
-        why += f". The peak acceleration is then {ratio:.3g} times what is given"
-    elif not wrong:
-        why += f". If it is {name}, the peak acceleration is {ratio:.3g} times what is given"
-        why += f"; if it is the sampling rate of both, that is {ratio**-0.5:.3g} times what is given"
     return (serious if abs(found.factor - 1) > MISLEADING else warning)(
         "gain",
         f"channel {name} is {_written(found.factor, found.factor_error)} times the second derivative of {other}: "
-        f"{which}; {why}",
+        f"{which}; {why}. If it is {name}, the peak acceleration is {ratio:.3g} times what is given; if it is the "
+        f"sampling rate of both, that is {ratio**-0.5:.3g} times what is given",
     )
 
 

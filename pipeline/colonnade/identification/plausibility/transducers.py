@@ -225,9 +225,7 @@ def _gains(known: Seen, block: Block) -> Iterator[Finding]:
     for each, scale in wrong:
         why = cause(scale.value, each.quantity)
         if why == UNKNOWN:
-            length = 1e3 * each.lever
-            place = f", or a place (`at`) whose lever is {scale.value * length:.3g} mm and not {length:.3g} mm,"
-            place = "" if each.quantity == "angle" else place
+            place = "" if each.quantity == "angle" else f", or a place (`at`) whose lever is × {scale.value:.3g},"
             why = f"its gain × {1 / scale.value:.3g}{place} would make them agree"
         text = f"channel {each.name} shows {scale.value:.3g} times the rotation that the equation of motion gives"
         build = serious if scale.misleads else warning

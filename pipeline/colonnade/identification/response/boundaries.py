@@ -81,14 +81,11 @@ class Boundaries:
         Between tests without and with rocking; overturning is rocking here.
     overturning : Bracket
         Between tests that rocked and that overturned; those without rocking bound it from below where none rocked.
-    notes : tuple of str
-        What is out of order.
     """
 
     frequency_ratio: float
     rocking: Bracket
     overturning: Bracket
-    notes: tuple[str, ...]
 
 
 def makes_map(points: Iterable[MapPoint]) -> bool:
@@ -129,10 +126,5 @@ def _of_group(group: list[MapPoint]) -> Boundaries:
         [point.amplitude_ratio for point in group if point.outcome == outcome]
         for outcome in ("no-rocking", "rocking", "overturned")
     )
-    rocking, overturning = Bracket.between(still, [*rocked, *fell]), Bracket.between(rocked or still, fell)
-    notes = [
-        f"{what} at A = {bracket.above:.3g}, but not at {', '.join(f'{each:.3g}' for each in bracket.exceptions)}"
-        for what, bracket in (("rocking", rocking), ("overturning", overturning))
-        if bracket.exceptions
-    ]
-    return Boundaries(sum(point.frequency_ratio for point in group) / len(group), rocking, overturning, tuple(notes))
+    frequency_ratio = sum(point.frequency_ratio for point in group) / len(group)
+    return Boundaries(frequency_ratio, Bracket.between(still, [*rocked, *fell]), Bracket.between(rocked or still, fell))

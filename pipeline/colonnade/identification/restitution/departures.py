@@ -21,9 +21,6 @@ NOISE_MARGIN = 5.0
 LARGEST_SHARE = 0.1
 """Of |θ|, up to which a rotation out of the plane is let pass."""
 
-FEWEST_LATER = 6
-"""Arcs that are left where the first ones are left out."""
-
 SURE = 4.5
 """Standard errors from which on the sides differ."""
 
@@ -59,7 +56,7 @@ def find_beside(time: Array, measured: dict[str, Array], record: Record) -> Iter
 
 
 def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Iterator[Departure]:
-    """Hold a measured rotation out of the plane (rad) against the rocking angle; first arcs with much are left out."""
+    """Hold a measured rotation out of the plane (rad) against the rocking angle of each arc."""
     finite = np.isfinite(out_of_plane)
     if not finite.any():
         return
@@ -70,16 +67,13 @@ def find_rotation(time: Array, out_of_plane: Array, record: Record) -> Iterator[
     large = (share > LARGEST_SHARE) & (amplitude > NOISE_MARGIN * noise)
     if large.any():
         size, error = float(share[large].max()), float(noise / seen.height[np.argmax(np.where(large, share, 0))])
-        finding = (
-            f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle (measured); more "
-            f"than {format_percent(LARGEST_SHARE)}"
-        )
-        number, count = np.flatnonzero(record.usable), int(np.flatnonzero(large)[-1]) + 1
-        first = f"the first {f'{count} ' if count > 1 else ''}of {number.size} arcs"
-        refuses = number.size - count < FEWEST_LATER
-        end = f"; too few are left without {first}." if refuses else f"; left out: {first}."
-        left_out = int(number[count - 1]) + 1
-        yield Departure("three-dimensional rocking", size, error, "1", finding + end, left_out, refuses)
+        yield Departure(
+            "three-dimensional rocking", size, error, "1",
+            f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle (measured), and by "
+            f"more than {format_percent(LARGEST_SHARE)} until {seen.end[large][-1]:.3f} s; e is of rocking in the "
+            "plane. If it rocks on in its plane, give the test a `window` from then on.",
+            refuses=True,
+        )  # fmt: skip
 
 
 def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Iterator[Departure]:
@@ -117,12 +111,12 @@ def find_sliding(time: Array, angle: Array, slide: Array, record: Record) -> Ite
     if not work > LEAST_WORK:
         return
     refuses = work > LARGEST_WORK
-    share = f"{format_percent(work)} of" if work < 10 else "more than 10 times"
     end = "; too much for an e of rocking alone." if refuses else "; e includes this loss."
     yield Departure(
         "sliding", total, total_error, "m",
         f"The block slides at {int(large.sum())} of {jumps.size} impacts, by {1e3 * total:.3g} ± "
-        f"{1e3 * total_error:.1g} mm in all: with a friction of {FRICTION:g} this is {share} the energy lost" + end,
+        f"{1e3 * total_error:.1g} mm in all: with a friction of {FRICTION:g} this is {format_percent(work)} of the "
+        "energy lost" + end,
         refuses=refuses,
     )  # fmt: skip
 
@@ -171,16 +165,12 @@ def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
         )  # fmt: skip
     if scatters(found):
         e, scatter = found.path.restitution, found.restitution * found.answer.scatter
-        cause = (
-            "the recorded motion of the table does not explain it. Check the gain, sign and clock of its accelerometer."
-            if driven
-            else "the table moves, somebody touched the block, or a transducer slipped. No value is given; record the "
-            'table\'s acceleration (on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
-        )
         yield Departure(
             MOVING, scatter, scatter / (2 * e.size) ** 0.5, "1",
             f"e of single impacts scatters by {scatter:.3g}, from {e.min():.3f} to {e.max():.3f}; up to "
-            f"{LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
+            f"{LARGEST_SCATTER:g} was expected of impacts alone: the table moves, and not as recorded, or somebody "
+            "touched the block, or a transducer slipped. No value is given; record the table's acceleration (on = "
+            '"table", quantity = "acceleration"; check its gain, sign and clock), or repeat the test on a table at rest.',
             refuses=True,
         )  # fmt: skip
     elif found.has_trend and found.restitution * abs(found.trend[0]) > LEAST_CHANGE:

@@ -41,10 +41,7 @@ SURE_TREND = 0.003
 FEWEST_OF_TREND = 5
 """Impacts."""
 
-METHOD = (
-    "whole history: penalised least squares on the samples, with an e of its own at each impact about one mean, and "
-    "α, p and the gain of the angle as uncertain as given; interval over all scatters of e by restricted likelihood"
-)
+METHOD = "whole history: penalised least squares on the samples, with an e of its own at each impact about one mean"
 
 
 @dataclass(frozen=True)
@@ -96,15 +93,6 @@ class Estimated:
         return np.asarray((speed - speed.mean()) / max(float(np.ptp(speed)), 1e-300))
 
     @property
-    def slope(self) -> tuple[float, float]:
-        """Change of e with the speed of impact, s/rad, and its error; NaN where it is not seen."""
-        extent = float(np.ptp(self.path.followed.speeds[:-1]))
-        if self.path.count < 4 or not extent > 0:
-            return np.nan, np.nan
-        change, error = self.trend
-        return self.restitution * change / extent, self.restitution * error / extent
-
-    @property
     def joint(self) -> Joint:
         """ln e, and ln of α and of p over those of the block."""
         mean = self.answer.mean
@@ -116,7 +104,7 @@ class Estimated:
         return float(self.answer.mean[TILT]), float(np.sqrt(self.answer.covariance[TILT, TILT]))
 
 
-def estimate(path: Path, lowest: float, *, whole: bool) -> Estimated:
+def estimate(path: Path, lowest: float) -> Estimated:
     """
     Follow a record from a path of its first arcs on, and say what is known of the unknowns then.
 
@@ -125,8 +113,6 @@ def estimate(path: Path, lowest: float, *, whole: bool) -> Estimated:
     path : Path
     lowest : float
         rad; lower peaks are not followed.
-    whole : bool
-        Whether the part from the release on may be followed too.
 
     Raises
     ------
@@ -136,7 +122,7 @@ def estimate(path: Path, lowest: float, *, whole: bool) -> Estimated:
         If the record does not separate the unknowns.
     """
     path = path.laid_forward(lowest)
-    released = path.with_release() if whole else None
+    released = path.with_release()
     if released is not None:
         with suppress(UnfollowedError):
             found = _estimated(released)

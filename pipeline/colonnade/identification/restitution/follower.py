@@ -146,66 +146,61 @@ def follow(
     """
     n, m = time.size, restitution.size + 1
     angle, arc, local = np.full(n, np.nan), np.full(n, -1), np.zeros((n, LOCAL))
-    starts, varied = np.zeros((m, 2, FIXED + m - 1)), np.zeros((LOCAL, 2))
+    starts, varied = np.zeros((m, 2, FIXED + m - 1)), np.eye(LOCAL, 2)
     peaks, times = np.full(m, np.nan), np.full(m, np.nan)
     ends, speeds = np.full(m, np.nan), np.full(m, np.nan)
     begin = int(np.searchsorted(time, peak_time))
+    # np.interp alone takes two seconds to compile.
+    before = min(max(begin, 1), n - 1) - 1
+    share = min(max((peak_time - time[before]) / (time[before + 1] - time[before]), 0.0), 1.0)
+    at_peak = base[before] + share * (base[before + 1] - base[before])
     for way in (-1, 1):
-        side, now, height, speed, number = first_side, peak_time, peak, 0.0, 0
-        sign, alpha, square, longest = 2.0 * side - 1.0, critical[side], p[side] * p[side], STEP / p[side]
-        varied[:, :] = 0.0
-        varied[0, 0] = varied[1, 1] = 1.0
+        now, height, speed, e, pull, pushed = peak_time, peak, 0.0, 0.0, 0.0, at_peak
         i = begin if way > 0 else begin - 1
-        # np.interp alone takes two seconds to compile.
-        before = min(max(begin, 1), n - 1) - 1
-        share = min(max((now - time[before]) / (time[before + 1] - time[before]), 0.0), 1.0)
-        push = sign * (base[before] + share * (base[before + 1] - base[before]))
-        if way > 0:
-            starts[0, 0, PEAK] = 1.0
-            starts[0, 1, TIME] = square * (sin(alpha - peak) + push * cos(alpha - peak))
-            peaks[0], times[0] = peak, peak_time
-        while number < m and (0 <= i < n):
-            length, ends_at_sample = time[i] - now, True
-            if abs(length) > longest:
-                parts = np.ceil(abs(length) / longest)
-                length, ends_at_sample = length / parts, parts < 1.5
-            next_push = push + (sign * base[i] - push) * (length / (time[i] - now) if time[i] != now else 1.0)
-            higher, faster, accelerations, by = _step(height, speed, length, alpha, square, push, next_push)
-            landed = way > 0 and higher <= 0.0 and faster < 0.0
-            if landed:
-                whole, whole_push = length, next_push
-                for _ in range(5):
-                    length -= higher / faster
-                    next_push = push + (whole_push - push) * (length / whole)
-                    higher, faster, accelerations, by = _step(height, speed, length, alpha, square, push, next_push)
-                ends_at_sample = False
-            _vary(varied, length, alpha, accelerations, by)
-            if way > 0 and number > 0 and speed > 0.0 and faster <= 0.0 and not higher <= peaks[number]:
-                turned = length * speed / (speed - faster)
-                peaks[number], times[number] = height + 0.5 * speed * turned, now + turned
-            now, height, speed, push = now + length, higher, faster, next_push
-            if ends_at_sample:
-                now = time[i]
-                if way < 0 and height <= 0.0:
-                    break
-                angle[i], arc[i] = sign * height, number
-                for k in range(LOCAL):
-                    local[i, k] = sign * varied[k, 0]
-                i += way
-            if not abs(height) < 1.5:
-                break
-            if landed:
-                ends[number], speeds[number] = now, -speed
-                number += 1
-                if number == m:
-                    break
-                e, pull = restitution[number - 1], -square * (sin(alpha) + push * cos(alpha))
-                side = 1 - side
-                sign, alpha, square = -sign, critical[side], p[side] * p[side]
-                push, longest = -push, STEP / p[side]
-                after = -square * (sin(alpha) + push * cos(alpha))
+        # Arc by arc; backward only the first, to its start.
+        for number in range(m if way > 0 else 1):
+            side = (first_side + number) % 2
+            sign, alpha, square, longest = 2.0 * side - 1.0, critical[side], p[side] * p[side], STEP / p[side]
+            push, landed = sign * pushed, False
+            after = -square * (sin(alpha - height) + push * cos(alpha - height))
+            if number > 0:
                 _land(starts, number, varied, -sign, speed, e, pull, after)
-                varied[:, :] = 0.0
-                varied[0, 0] = varied[1, 1] = 1.0
-                height, speed = 0.0, -e * speed
+                speed = -e * speed
+            elif way > 0:
+                starts[0, 0, PEAK], starts[0, 1, TIME] = 1.0, -after
+                peaks[0], times[0] = peak, peak_time
+            varied = np.eye(LOCAL, 2)
+            while not landed and 0 <= i < n and abs(height) < 1.5:
+                length, ends_at_sample = time[i] - now, True
+                if abs(length) > longest:
+                    parts = np.ceil(abs(length) / longest)
+                    length, ends_at_sample = length / parts, parts < 1.5
+                next_push = push + (sign * base[i] - push) * (length / (time[i] - now) if time[i] != now else 1.0)
+                higher, faster, accelerations, by = _step(height, speed, length, alpha, square, push, next_push)
+                landed = way > 0 and higher <= 0.0 and faster < 0.0
+                if landed:
+                    whole, whole_push, ends_at_sample = length, next_push, False
+                    for _ in range(5):
+                        length -= higher / faster
+                        next_push = push + (whole_push - push) * (length / whole)
+                        higher, faster, accelerations, by = _step(height, speed, length, alpha, square, push, next_push)
+                _vary(varied, length, alpha, accelerations, by)
+                if way > 0 and number > 0 and speed > 0.0 and faster <= 0.0 and not higher <= peaks[number]:
+                    turned = length * speed / (speed - faster)
+                    peaks[number], times[number] = height + 0.5 * speed * turned, now + turned
+                now, height, speed, push = now + length, higher, faster, next_push
+                if ends_at_sample:
+                    now = time[i]
+                    if way < 0 and height <= 0.0:
+                        break
+                    angle[i], arc[i] = sign * height, number
+                    for k in range(LOCAL):
+                        local[i, k] = sign * varied[k, 0]
+                    i += way
+            if not landed or not abs(height) < 1.5:
+                break
+            ends[number], speeds[number] = now, -speed
+            if number + 1 < m:
+                e, pull = restitution[number], -square * (sin(alpha) + push * cos(alpha))
+            height, pushed = 0.0, sign * push
     return Followed(angle, arc, local, starts, peaks, times, ends, speeds)

@@ -24,7 +24,6 @@ from colonnade.identification.restitution.record import Record, objection, thinn
 from colonnade.identification.restitution.result import (
     NO_IMPACTS,
     NO_PEAKS,
-    Constancy,
     Departure,
     Estimate,
     Joint,
@@ -43,9 +42,6 @@ LARGEST_ERROR = 0.01
 
 WIDEST = 2.0
 """ln e at most, where an interval ends; above 0 there is no e."""
-
-FARTHEST = 2.0
-"""rad: no block leans so far."""
 
 FAR = 2.0
 """Prior widths beyond which a shift of α, of the gain or of p is a doubt."""
@@ -133,7 +129,7 @@ def identify_restitution(
         moves = table_moves(measured["base_acceleration"], record.samples.step, block)
     base = measured["base_acceleration"] / block.gravity if moves else None
     if reason := objection(record, base):
-        return _refused(reason + _in_other_units(times, angles, block), level, record.peaks)
+        return _refused(reason, level, record.peaks)
     follow = partial(_followed, widths=prior_widths(uncertainty), lowpass=lowpass)
     found, why = follow(record)
     driven, departing = False, list[Departure]()
@@ -149,9 +145,6 @@ def identify_restitution(
     if not driven:
         record = record if found is None else replace(record, zero=found.zero)
         departing += departures.find_beside(times, measured, record)
-        if left_out := max((each.left_out for each in departing), default=0):
-            record = replace(record, left_out=left_out)
-            found, why = follow(record)
     if found is not None and not (driven and departing):
         departing += departures.find_within(found, driven=driven)
     moves = None if moves is None else driven
@@ -162,17 +155,9 @@ def _followed(record: Record, *, widths: Array, lowpass: float | None) -> tuple[
     """Follow a record from the first arc that enters; what is found, or why nothing is."""
     try:
         path = Path.through(record.samples, record.block, widths, lowpass, *record.run())
-        return estimate(path, record.least, whole=record.left_out == 0), ""
+        return estimate(path, record.least), ""
     except (UnfollowedError, np.linalg.LinAlgError) as error:
         return None, f"No simulated history follows the record: {error}."
-
-
-def _in_other_units(times: Array, angles: Array, block: Block) -> str:
-    """Hint at degrees in place of rad, or ms in place of s; empty if neither is likely."""
-    largest, step = float(np.nanmax(np.abs(angles))), float(np.median(np.diff(times)))
-    if largest > FARTHEST:
-        return f" Angles reach {largest:.3g}: they are expected in rad, not in degrees."
-    return f" Samples are {step:.3g} s apart: times are expected in s, not in ms." if step * block.p > 1.0 else ""
 
 
 def _result(
@@ -215,7 +200,6 @@ def _result(
         history=None if found is None else found.path.history,
         departures=tuple(departing),
         recommended="" if refused else chosen.name,
-        constancy=Constancy() if found is None else Constancy(*found.slope),
         joint=None if refused else joint,
         doubts=() if found is None else tuple(_doubts(found.joint, uncertainty)),
     )

@@ -135,8 +135,6 @@ class Record:
         Standard deviation of the averaged angle at rest, rad.
     zero : float
         rad, what is taken off the angle for `arcs`: the block's zero as far as it is known.
-    left_out : int
-        Number of the first arcs that do not count.
     """
 
     block: Block
@@ -146,7 +144,6 @@ class Record:
     least: float
     noise: float
     zero: float = 0.0
-    left_out: int = 0
 
     @classmethod
     def seen(cls, samples: AngleSamples, block: Block, lowest_amplitude: float, noise: float | None) -> Record:
@@ -170,11 +167,11 @@ class Record:
         """Arcs whose peak is known, below α and above `lowest`."""
         arcs = self.arcs
         high = (arcs.height > self.lowest) & (arcs.height < self.block.critical_angle_at(arcs.peak_angle))
-        return np.isfinite(arcs.peak_standard_error) & high & (np.arange(high.size) >= self.left_out)
+        return np.isfinite(arcs.peak_standard_error) & high
 
     def run(self) -> tuple[Array, Array]:
-        """Peaks (rad, signed) and times (s) of the longest run of arcs on alternating sides that is not left out."""
-        peaks, times = self.arcs.peak_angle[self.left_out :], self.arcs.peak_time[self.left_out :]
+        """Peaks (rad, signed) and times (s) of the longest run of arcs on alternating sides."""
+        peaks, times = self.arcs.peak_angle, self.arcs.peak_time
         seen = np.isfinite(peaks) & (np.abs(peaks) < self.block.critical_angle_at(peaks))
         follows = seen[1:] & seen[:-1] & (np.sign(peaks[1:]) == -np.sign(peaks[:-1]))
         breaks = np.flatnonzero(np.concatenate(([True], ~follows, [True])))
@@ -236,15 +233,13 @@ def objection(record: Record, base: Array | None) -> str:
         return (
             f"At least {FEWEST_ARCS} peaks between two impacts, above "
             f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has "
-            f"{seen.start.size}."
+            f"{seen.start.size}. Angles are in rad, times in s."
         )
-    if base is not None and (missing := int((~np.isfinite(base)).sum())):
+    if base is not None and not (record.samples.is_even and np.isfinite(base).all()):
         return (
-            f"The table moves, and its acceleration is missing {missing} of {base.size} samples: e cannot be "
-            "identified. Give the test a `window` without them."
+            "The table moves, and its acceleration misses samples, or steps are uneven; all of them on a uniform clock "
+            "were expected. Give the test a `window` without missing ones."
         )
-    if base is not None and not record.samples.is_even:
-        return "The table moves, and the record's steps are uneven; a uniform clock was expected."
     peak, critical = seen.height, record.block.critical_angle_at(seen.peak_angle)
     p = record.block.p_at(np.sign(seen.peak_angle))
     expected, duration = 2 * half_duration(peak, critical) / p, seen.end - seen.start
@@ -252,7 +247,8 @@ def objection(record: Record, base: Array | None) -> str:
     if abs(excess) > PERIOD_TOLERANCE:
         return (
             f"Times between impacts differ by {format_percent(excess, signed=True)} from those of this block in "
-            "free rocking at these amplitudes: this is not free rocking of this specimen, or its dimensions are wrong."
+            "free rocking at these amplitudes: this is not free rocking of this specimen, or its dimensions, or the "
+            "unit of its angle (rad) or time (s) are wrong."
         )
     unsure = seen.duration_standard_error / duration
     sure = unsure < LARGEST_ERROR

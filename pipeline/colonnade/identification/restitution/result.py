@@ -79,21 +79,6 @@ NO_IMPACTS = Impacts(_NONE, _NONE, _NONE, _NONE, np.empty(0, dtype=bool))
 
 
 @dataclass(frozen=True)
-class Constancy:
-    """
-    How e of single impacts changes with their speed.
-
-    Attributes
-    ----------
-    slope, slope_standard_error : float
-        Of e against the angular velocity before the impact, s/rad.
-    """
-
-    slope: float = np.nan
-    slope_standard_error: float = np.nan
-
-
-@dataclass(frozen=True)
 class FittedHistory:
     """
     The history laid through the record.
@@ -158,8 +143,6 @@ class Restitution(Digested):
         From the plane model with one e.
     recommended : str
         Name of the estimate whose value this is; empty if refused.
-    constancy : Constancy
-        Of e from impact to impact.
     table_moves : bool or None
         Whether the recorded motion of the table drives the history; None if it was not recorded, or refused before.
     joint : Joint or None
@@ -193,7 +176,6 @@ class Restitution(Digested):
     history: FittedHistory | None = None
     departures: tuple[Departure, ...] = ()
     recommended: str = ""
-    constancy: Constancy = Constancy()
     table_moves: bool | None = None
     joint: Joint | None = None
     doubts: tuple[tuple[str, str], ...] = ()
@@ -228,9 +210,7 @@ class Departure:
     unit : str
         SI; "1" where it has none.
     sentence : str
-        The finding for people: size with its error, and what was left out because of it.
-    left_out : int
-        Number of the first arcs that the departure spoils: they are not to enter an estimate of e.
+        The finding for people: size with its error, and what follows.
     refuses : bool
         Whether no e of the plane model is left.
     """
@@ -240,5 +220,4 @@ class Departure:
     standard_error: float
     unit: str
     sentence: str
-    left_out: int = 0
     refuses: bool = False

@@ -201,13 +201,11 @@ def facts_of(one: OfTest) -> list[Fact]:
     """Give e of a free vibration, by which estimator, or why it was refused."""
     stored = one.stored
     chosen = next((each for each in estimate_rows(stored) if each.recommended), None)
-    slope, error = (stored.value(STAGE, f"restitution_slope{end}") for end in ("", "_standard_error"))
     facts = [
         ("e", value_of(one)),
         ("refused", stored.text(STAGE, "reason")),
         ("from", chosen.name if chosen else ""),
         ("method", stored.text(STAGE, "method")),
-        ("change of e with the speed of impact", f"{format_uncertain(slope, error)} per rad/s" if error > 0 else ""),
         ("rest angle subtracted", quantity(stored.value(STAGE, "zero_offset"), "mrad", 2)),
     ]
     return known(facts)
