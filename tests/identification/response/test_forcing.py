@@ -128,11 +128,6 @@ def test_brackets(outcomes, rocking, overturning):
     assert (found.rocking, found.overturning) == (rocking, overturning)
 
 
-def test_what_is_out_of_order_is_said():
-    (found,) = bracket_boundaries(points("nroro"))
-    assert found.notes == ("overturning at A = 1.3, but not at 1.5",)
-
-
 def test_recorded_frequencies_that_differ_a_little_are_one_group():
     found = bracket_boundaries([*points("nr", 3.35), *points("ro", 3.37, (1.3, 1.5)), *points("nr", 4.46)])
     assert [round(each.frequency_ratio, 2) for each in found] == [3.36, 4.46]

@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pytest
 
@@ -72,21 +74,18 @@ def test_a_tilted_table_is_named_with_its_angle(tilt):
     assert Record(block=tilted).departures() == {}  # known of the block, it is no departure
 
 
-def test_a_measured_rotation_out_of_the_plane_leaves_out_the_cycles_it_spoils():
+def test_a_measured_rotation_out_of_the_plane_asks_for_a_window_without_it():
     record = Record()
     decay = np.where(record.time < record.impacts[5], 0.2, 0.03)
     transverse = decay * record.truth + 1e-4 * record.random.normal(size=record.time.size)
     departure = record.departures(out_of_plane=transverse)["three-dimensional rocking"]
-    assert departure.left_out == 5
     assert departure.size == pytest.approx(0.2, rel=0.05)
-    assert not departure.refuses
-
-
-def test_rocking_out_of_the_plane_to_the_end_refuses():
-    record = Record()
-    departure = record.departures(out_of_plane=0.5 * record.truth)["three-dimensional rocking"]
     assert departure.refuses
-    assert "too few" in departure.sentence
+    assert float(re.search(r"until ([\d.]+) s", departure.sentence)[1]) == pytest.approx(record.impacts[5], abs=0.01)
+    later = record.time > record.impacts[5] + 0.01
+    found = identify_restitution(record.time[later], record.angle[later], PRISM, out_of_plane=transverse[later])
+    assert found.departures == ()
+    assert found.low <= 0.95 <= found.high
 
 
 @pytest.mark.parametrize(("jump", "refuses"), [(8e-5, False), (4e-4, True)], ids=["a little", "much"])

@@ -1,6 +1,7 @@
 """Restitution from peaks: truth is the full nonlinear equation, integrated adaptively between impacts."""
 
 import functools
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -89,13 +90,11 @@ def test_what_is_no_free_rocking_is_refused_with_its_reason(angle, words):
     assert words in _refusal(angle)
 
 
-def test_degrees_and_milliseconds_are_named():
+def test_degrees_and_milliseconds_are_refused_with_the_unit_that_was_expected():
     time, angle = _nonlinear_decay(0.976)
-    for given, words in (
-        ((time, np.degrees(angle)), "in rad, not in degrees"),
-        ((1e3 * time, angle), "in s, not in ms"),
-    ):
-        assert identify_restitution(*given, PRISM).reason.endswith(f"{words}.")
+    for given in ((time, np.degrees(angle)), (1e3 * time, angle)):
+        reason = identify_restitution(*given, PRISM).reason
+        assert re.search(r"\brad\b.*\bs\b", reason), reason
 
 
 def test_time_that_does_not_increase_is_an_error():

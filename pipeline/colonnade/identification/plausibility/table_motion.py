@@ -145,17 +145,15 @@ def table_doubts(
             agree = True
     if found or np.isnan(by_specimen):
         return found
-    name, size = " and ".join(each.name for each in accelerations), abs(by_specimen)
-    if by_specimen < 0:
-        text = (
-            f"channel {name} is opposite to what the specimen's rocking requires: its sign is wrong, or that of all "
-            "transducers on the specimen (`direction`, or the sign of the gain)"
-        )
-        return [serious("sign", text)]
-    if agree or as_expected(size) or not accelerations[0].is_good:
+    if by_specimen > 0 and (agree or as_expected(by_specimen) or not accelerations[0].is_good):
         return []
-    text = f"channel {name} is {size:.3g} times what the specimen's rocking requires: {cause(size, 'acceleration')}"
-    return [serious("gain", text)]
+    kind, why = "gain", cause(by_specimen, "acceleration")
+    if by_specimen < 0:
+        kind = "sign"
+        why = "its sign is wrong, or that of all transducers on the specimen (`direction`, or the sign of the gain)"
+    name = " and ".join(each.name for each in accelerations)
+    text = f"channel {name} is {by_specimen:.3g} times what the specimen's rocking requires: {why}"
+    return [serious(kind, text)]
 
 
 def _late(name: str, found: Comparison, other: str) -> Finding:

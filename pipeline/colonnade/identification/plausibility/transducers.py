@@ -225,7 +225,8 @@ def _gains(known: Seen, block: Block) -> Iterator[Finding]:
     for each, scale in wrong:
         why = cause(scale.value, each.quantity)
         if why == UNKNOWN:
-            place = "" if each.quantity == "angle" else f", or a place (`at`) whose lever is × {scale.value:.3g},"
+            lever = 1e3 * scale.value * each.lever
+            place = "" if each.quantity == "angle" else f", or a place (`at`) whose lever is {lever:.3g} mm,"
             why = f"its gain × {1 / scale.value:.3g}{place} would make them agree"
         text = f"channel {each.name} shows {scale.value:.3g} times the rotation that the equation of motion gives"
         build = serious if scale.misleads else warning

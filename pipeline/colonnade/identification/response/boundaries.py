@@ -107,7 +107,15 @@ def bracket_boundaries(points: Iterable[MapPoint]) -> list[Boundaries]:
     boundaries : list of Boundaries
         In order of Ω; tests within `SAME_FREQUENCY` of each other form a group.
     """
-    return [_of_group(group) for group in at_one_frequency(points, lambda each: each.frequency_ratio)]
+    found = []
+    for group in at_one_frequency(points, lambda each: each.frequency_ratio):
+        still, rocked, fell = (
+            [point.amplitude_ratio for point in group if point.outcome == outcome]
+            for outcome in ("no-rocking", "rocking", "overturned")
+        )
+        rocking, overturning = Bracket.between(still, [*rocked, *fell]), Bracket.between(rocked or still, fell)
+        found.append(Boundaries(sum(point.frequency_ratio for point in group) / len(group), rocking, overturning))
+    return found
 
 
 def at_one_frequency(tests: Iterable[Of], frequency_ratio: Callable[[Of], float]) -> list[list[Of]]:
@@ -119,12 +127,3 @@ def at_one_frequency(tests: Iterable[Of], frequency_ratio: Callable[[Of], float]
         else:
             groups.append([test])
     return groups
-
-
-def _of_group(group: list[MapPoint]) -> Boundaries:
-    still, rocked, fell = (
-        [point.amplitude_ratio for point in group if point.outcome == outcome]
-        for outcome in ("no-rocking", "rocking", "overturned")
-    )
-    frequency_ratio = sum(point.frequency_ratio for point in group) / len(group)
-    return Boundaries(frequency_ratio, Bracket.between(still, [*rocked, *fell]), Bracket.between(rocked or still, fell))

@@ -192,25 +192,19 @@ def ending(
     if not tail.size:
         return None
     lasting = float(amplitude(tail, block).max())
+    share = float(amplitude(np.array([tail.max() + tail.min()]) / 2, block)[0])
     interval = float(np.median(np.diff(time)))
     shaken = base is not None and not rest.quiet and table_moves(base[time >= rest.start], interval, block)
     # On a table at rest the motion only dies.
-    if shaken and lasting > LASTING:
-        return warning(
-            "record ends in motion",
-            f"The record ends at {time[-1]:.4g} s while the table shakes and the specimen moves by {lasting:.2g} α. "
-            f'What it did next is not known: the outcome "{verdict.outcome}" is that on a table at rest from then on, '
-            "and a later peak is missed. Record until it rests.",
-        )
-    share = float(amplitude(np.array([tail.max() + tail.min()]) / 2, block)[0])
-    moves_on = not rest.quiet and (shaken or lasting > SMALL or tail.min() < 0.0 < tail.max())
-    if share < UPRIGHT or moves_on:
+    dies = not rest.quiet and (lasting > SMALL or tail.min() < 0.0 < tail.max())
+    if lasting <= LASTING if shaken else (dies or share < UPRIGHT):
         return None
-    return (serious if share > LASTING else warning)(
+    return (serious if share > LASTING and not shaken else warning)(
         "rest",
-        f"At its end the specimen is at {share:.2g} α, where no block stands by itself: its zero was taken while it "
-        "leaned or was held (`zero`); or a transducer saturates, sticks or tore off, or the block walked under it; or "
-        "a safety frame holds it (the set-up's `catch`). Angles and peaks are wrong by up to as much, and it may have "
-        "overturned.",
+        f"At its end ({time[-1]:.4g} s) the specimen is at {share:.2g} α, where no block stands by itself, or moves by "
+        f"{lasting:.2g} α while the table shakes. The record ends too early, and the outcome is that on a table at "
+        "rest from then on; or its zero was taken while it leaned or was held (`zero`); or a transducer saturates, "
+        "sticks or tore off, or the block walked under it; or a safety frame holds it (the set-up's `catch`). Angles "
+        "and peaks are wrong by up to as much, and it may have overturned.",
         follows=LOST,
     )

@@ -134,14 +134,14 @@ def find_turned(turned: Estimated | None, *others: Estimated | None) -> Iterator
     if turned is None:
         return
     residual, *rest = (float(each.path.power**0.5) for each in (turned, *others) if each is not None)
-    if rest and min(rest) < LEAST_FALL * residual:
+    best = min(rest, default=np.inf)
+    if best < LEAST_FALL * residual:
         return
-    otherwise = f"it is {1e3 * min(rest):.2g} mrad off" if rest else "no history follows it"
     yield Departure(
-        MOVING, min(rest, default=0.0), residual, "rad",
+        MOVING, best, residual, "rad",
         f"With the sign of the table's acceleration turned, a history follows the angle to {1e3 * residual:.2g} mrad; "
-        f"as recorded, or with a table at rest, {otherwise}. Correct the `direction` of the accelerometer or of the "
-        "transducers, or the sign of a gain.",
+        "as recorded, or with a table at rest, none does nearly as well. Correct the `direction` of the accelerometer "
+        "or of the transducers, or the sign of a gain.",
         refuses=True,
     )  # fmt: skip
 
@@ -170,7 +170,8 @@ def find_within(found: Estimated, *, driven: bool) -> Iterator[Departure]:
             f"e of single impacts scatters by {scatter:.3g}, from {e.min():.3f} to {e.max():.3f}; up to "
             f"{LARGEST_SCATTER:g} was expected of impacts alone: the table moves, and not as recorded, or somebody "
             "touched the block, or a transducer slipped. No value is given; record the table's acceleration (on = "
-            '"table", quantity = "acceleration"; check its gain, sign and clock), or repeat the test on a table at rest.',
+            '"table", quantity = "acceleration") with the right gain, sign and clock, or repeat the test on a table at '
+            "rest.",
             refuses=True,
         )  # fmt: skip
     elif found.has_trend and found.restitution * abs(found.trend[0]) > LEAST_CHANGE:

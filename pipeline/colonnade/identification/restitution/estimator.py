@@ -157,7 +157,7 @@ def _estimated(path: Path) -> Estimated:
             break
         scatter = now
     has_spectrum = path.samples.is_even and path.counted.sum() >= FEWEST_SAMPLES
-    if not (has_spectrum and passed.bands(path.residual).is_coloured):
+    if not (has_spectrum and passed.is_coloured(path.residual)):
         return found
     rows, frequency, _ = passed.whitened(path.columns, 0.0)
     knee = find_knee(rows, frequency, path.precision(now), found.model.level)

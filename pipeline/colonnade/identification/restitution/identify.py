@@ -124,10 +124,9 @@ def identify_restitution(
     if np.isfinite(angles).sum() < FEWEST_SAMPLES:
         return _refused(f"The record holds fewer than {FEWEST_SAMPLES} values.", level, NO_PEAKS)
     record = Record.seen(thinned(times, angles, block), block, lowest_amplitude, noise)
-    moves = None
-    if base_acceleration is not None:
-        moves = table_moves(measured["base_acceleration"], record.samples.step, block)
-    base = measured["base_acceleration"] / block.gravity if moves else None
+    base = None
+    if "base_acceleration" in measured and table_moves(measured["base_acceleration"], record.samples.step, block):
+        base = measured["base_acceleration"] / block.gravity
     if reason := objection(record, base):
         return _refused(reason, level, record.peaks)
     follow = partial(_followed, widths=prior_widths(uncertainty), lowpass=lowpass)
@@ -147,8 +146,8 @@ def identify_restitution(
         departing += departures.find_beside(times, measured, record)
     if found is not None and not (driven and departing):
         departing += departures.find_within(found, driven=driven)
-    moves = None if moves is None else driven
-    return replace(_result(record, found, why, uncertainty, level, departing, driven=driven), table_moves=moves)
+    moves = driven if "base_acceleration" in measured else None
+    return _result(record, found, why, uncertainty, level, departing, moves)
 
 
 def _followed(record: Record, *, widths: Array, lowpass: float | None) -> tuple[Estimated | None, str]:
@@ -167,12 +166,11 @@ def _result(
     uncertainty: Uncertainty,
     level: float,
     departing: list[Departure],
-    *,
-    driven: bool,
+    moves: bool | None,
 ) -> Restitution:
     """Give the value of the history, or if none follows the record that of the peaks."""
     fit, reason = None, "The table moves: it is taken to be at rest."
-    if not driven:
+    if not moves:
         with suppress(np.linalg.LinAlgError):
             fit = peaks.fit_peaks(record.peaks, record.block, record.noise, uncertainty)
         reason = f"At least {peaks.FEWEST_PEAKS} peaks between two impacts, above the noise, are needed."
@@ -195,10 +193,11 @@ def _result(
         refused,
         zero_offset=record.zero + zero,
         peaks=record.peaks if fit is None else fit[1],
-        impacts=NO_IMPACTS if driven else record.single_impacts(zero),
+        impacts=NO_IMPACTS if moves else record.single_impacts(zero),
         estimates=(of_history, of_peaks),
         history=None if found is None else found.path.history,
         departures=tuple(departing),
+        table_moves=moves,
         recommended="" if refused else chosen.name,
         joint=None if refused else joint,
         doubts=() if found is None else tuple(_doubts(found.joint, uncertainty)),

@@ -65,11 +65,6 @@ class Bands:
         level = (self.freedom * self.power / shape).sum(axis=-1, keepdims=True) / self.freedom.sum()
         return np.asarray(-0.5 * (self.freedom * np.log(level * shape)).sum(axis=-1))
 
-    @property
-    def is_coloured(self) -> bool:
-        """Whether any knee is likelier than white noise."""
-        return bool(np.argmax(self.likelihoods()) > 0)
-
 
 @dataclass(frozen=True, eq=False)
 class Filter:
@@ -94,13 +89,13 @@ class Filter:
     of_speed: Array
     of_acceleration: Array
 
-    def bands(self, residual: Array) -> Bands:
-        """Average the power of a residual, NaN where not counted, before its low-pass."""
+    def is_coloured(self, residual: Array) -> bool:
+        """Whether any knee is likelier than white noise for a residual, NaN where not counted, before its low-pass."""
         frequency = scipy.fft.rfftfreq(residual.size, self.interval)[1:]
         left = passed(frequency, self.cutoff_hz, self.step) ** 2
         kept = left > PASSED
         power = np.abs(np.fft.rfft(np.nan_to_num(residual)))[1:][kept] ** 2 / left[kept]
-        return Bands.of(frequency[kept], power, np.full(power.size, 2.0))
+        return bool(np.argmax(Bands.of(frequency[kept], power, np.full(power.size, 2.0)).likelihoods()) > 0)
 
     def whitened(self, columns: Array, knee: float) -> tuple[Array, Array, float]:
         """

@@ -11,6 +11,7 @@ import numpy as np
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.uncertainty import Uncertainty
+from colonnade.identification.restitution.arcs import BLURRED
 from colonnade.identification.restitution.follower import (
     CRITICAL,
     DRIFT,
@@ -28,11 +29,8 @@ from colonnade.identification.restitution.follower import (
 )
 from colonnade.identification.restitution.noise import FINEST_CUTOFF, Filter, corners, filter_of
 from colonnade.identification.restitution.peaks import angle_of_energy, half_duration, lift
-from colonnade.identification.restitution.record import AngleSamples
+from colonnade.identification.restitution.record import FEWEST_ARCS, AngleSamples
 from colonnade.identification.restitution.result import EXACT, FittedHistory
-
-BLURRED = 0.08
-"""Over p: margin after the impact that began the first arc; 1 / (2 × default cut-off)."""
 
 RELEASED = 0.15
 """Share of the way from release to the first impact that is not followed: how the block was let go is not known."""
@@ -42,9 +40,6 @@ LIKELY_SCATTER = 4e-3
 
 SCATTERS = 3e-4, 3e-2
 """... then what they show, between these."""
-
-FEWEST_SEEN = 2
-"""Arcs that have to be seen in a row."""
 
 FIRST_ARCS = 10
 FARTHER = 1.6
@@ -108,8 +103,8 @@ class Path:
         UnfollowedError
             If the arcs are too few.
         """
-        if peaks.size < FEWEST_SEEN:
-            raise UnfollowedError(f"at least {FEWEST_SEEN} arcs in a row are needed")
+        if peaks.size < FEWEST_ARCS:
+            raise UnfollowedError(f"at least {FEWEST_ARCS} arcs in a row are needed")
         energies = block.p_at(peaks) ** 2 * lift(peaks, block.critical_angle_at(peaks))
         # An error of the angle is one of the logarithm in proportion to 1 / |θ|.
         slope, _ = np.polyfit(np.arange(peaks.size), np.log(energies), 1, w=np.abs(peaks))

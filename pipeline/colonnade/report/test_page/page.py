@@ -29,7 +29,6 @@ from colonnade.units.text import (
     NOTHING,
     acceleration,
     format_percent,
-    format_uncertain,
     number,
     quantity,
     ratio,
