@@ -91,11 +91,10 @@ def test_what_is_no_free_rocking_is_refused_with_its_reason(angle, words):
 
 def test_degrees_and_milliseconds_are_refused_with_the_unit_that_was_expected():
     time, angle = _nonlinear_decay(0.976)
-    for given, words in (
-        ((time, np.degrees(angle)), f"the critical angle, {ALPHA:.3g} rad, and below it"),
-        ((1e3 * time, angle), "Times between impacts, in s, differ"),
-    ):
-        assert words in identify_restitution(*given, PRISM).reason
+    for given in ((time, np.degrees(angle)), (1e3 * time, angle)):
+        reason = identify_restitution(*given, PRISM).reason
+        assert reason.startswith("Times between impacts, in s, differ")
+        assert "amplitudes, in rad" in reason
 
 
 def test_time_that_does_not_increase_is_an_error():

@@ -230,10 +230,10 @@ def objection(record: Record, base: Array | None) -> str:
     """
     seen = record.counted
     if seen.start.size < FEWEST_ARCS:
-        critical = record.block.critical_angle
+        alpha = record.block.critical_angle
         return (
-            f"At least {FEWEST_ARCS} peaks between two impacts, above {record.lowest / critical:.2g} of the critical "
-            f"angle, {critical:.3g} rad, and below it, are needed; the record has {seen.start.size}."
+            f"At least {FEWEST_ARCS} peaks between two impacts, above {record.lowest / alpha:.2g} of the critical angle, "
+            f"{alpha:.3g} rad, and below it, are needed; the record has {seen.start.size}."
         )
     if base is not None and not (record.samples.is_even and np.isfinite(base).all()):
         return (
@@ -247,7 +247,8 @@ def objection(record: Record, base: Array | None) -> str:
     if abs(excess) > PERIOD_TOLERANCE:
         return (
             f"Times between impacts, in s, differ by {format_percent(excess, signed=True)} from those of this block in "
-            "free rocking at these amplitudes: this is not free rocking of this specimen, or its dimensions are wrong."
+            "free rocking at these amplitudes, in rad: this is not free rocking of this specimen, or its dimensions "
+            "are wrong."
         )
     unsure = seen.duration_standard_error / duration
     sure = unsure < LARGEST_ERROR
