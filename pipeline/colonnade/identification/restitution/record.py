@@ -230,10 +230,10 @@ def objection(record: Record, base: Array | None) -> str:
     """
     seen = record.counted
     if seen.start.size < FEWEST_ARCS:
-        alpha = record.block.critical_angle
+        whole, length = record.block.critical_angle, float(np.ptp(record.samples.time))
         return (
-            f"At least {FEWEST_ARCS} peaks between two impacts, above {record.lowest / alpha:.2g} of the critical angle, "
-            f"{alpha:.3g} rad, and below it, are needed; the record has {seen.start.size}."
+            f"At least {FEWEST_ARCS} peaks between two impacts, above {record.lowest / whole:.2g} of the critical "
+            f"angle, {whole:.3g} rad, and below it, are needed; the record of {length:.2g} s has {seen.start.size}."
         )
     if base is not None and not (record.samples.is_even and np.isfinite(base).all()):
         return (
