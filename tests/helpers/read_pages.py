@@ -62,7 +62,9 @@ def built(campaign, layout, outdated=frozenset(), **options):
     """Write the summary and the report, as a run does."""
     graph = Graph(campaign, layout, Catalogue(layout))
     options = {"forecasts": write_summary(graph, outdated=outdated).forecasts} | options
-    return Report(graph, outdated, **options).bring_up_to_date()
+    page = Report(graph, outdated, **options).bring_up_to_date()
+    graph.catalogue.save()
+    return page
 
 
 def written(layout):
