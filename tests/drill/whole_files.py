@@ -21,19 +21,6 @@ TIME = np.arange(60) * 0.01
 TABLE = np.random.default_rng(5).random((60, 3))
 
 
-def c3d(path: Path) -> None:
-    """A marker that is hidden for three frames, and an analog channel at twice its rate."""
-    from ezc3d import c3d as new
-
-    file, points = new(), np.ones((4, 1, 60))
-    points[:3, 0], points[:3, 0, 20:23] = TABLE.T, np.nan
-    for group, rate, name, unit in (("POINT", 200.0, "m1", "mm"), ("ANALOG", 400.0, "table", "g")):
-        for key, value in (("RATE", rate), ("LABELS", name), ("UNITS", unit)):
-            file["parameters"][group][key]["value"] = [value]
-    file["data"]["points"], file["data"]["analogs"] = points, np.repeat(TABLE[:, 1], 2)[None, None]
-    file.write(str(path))
-
-
 def matlab(path: Path, *, compressed: bool) -> None:
     cells = np.empty(2, dtype=object)
     cells[:] = ["text", TIME]
@@ -81,7 +68,7 @@ WHOLE: dict[str, tuple[str, Callable[[Path], object]]] = {
     "excel ods": (".ods", lambda path: ods(path, SAMPLES)),
     "excel xls": (".xls", lambda path: xls(path, [*ROWS, *SAMPLES])),
     "tdms": (".tdms", partial(example, format="tdms")),
-    "c3d": (".c3d", c3d),
+    "c3d": (".c3d", partial(example, format="c3d")),
     "matlab 5 plain": (".mat", partial(matlab, compressed=False)),
     "matlab 5 compressed": (".mat", partial(matlab, compressed=True)),
     "matlab 7.3": (".mat", matlab_hdf5),

@@ -37,13 +37,6 @@ def based(reported):
     return of
 
 
-def test_what_was_recorded_is_given_with_its_interval(based, reported):
-    found = based("span-2.0")
-    np.testing.assert_array_equal(found.acceleration, reported["span-2.0"].stored.array("rocking", "base_acceleration"))
-    assert found.interval == pytest.approx(found.time[1] - found.time[0], rel=1e-9)
-    assert found.target is None
-
-
 def test_a_hole_in_it_a_standing_table_and_a_test_that_was_not_run_have_none(based):
     def broken(values):
         values[10] = np.nan
