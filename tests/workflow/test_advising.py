@@ -81,7 +81,7 @@ def next_sine(campaign, *outcomes):
 
 
 def test_the_advised_amplitude_is_between_the_outcomes(campaign):
-    (predicted,) = _limits(campaign.block("prism"), 0.0, np.array([OMEGA]), "nonlinear", (0.93, 0.93))
+    (predicted,) = _limits(campaign.block("prism"), 0.0, np.array([OMEGA]), (0.93, 0.93))
     low, high = 0.9 * predicted, 1.2 * predicted
     (advice,) = next_sine(campaign, (low, "rocking"), (high, "overturned"))
     assert low < advice.values["amplitude_ratio"] < high
@@ -110,7 +110,7 @@ def test_the_boundary_is_that_of_the_tilted_table(campaign, tilt):
     """Against single runs on the sine with the part of gravity that acts along a tilted table."""
     omega, e = 3.0, 0.75  # a low e: the boundary is sharp
     block = campaign.block("prism")
-    (limit,) = _limits(block, tilt, np.array([omega]), "nonlinear", (e, e))
+    (limit,) = _limits(block, tilt, np.array([omega]), (e, e))
     step = 2 * pi / (omega * block.p) / 200
     sine = np.sin(2 * pi * np.arange(20 * 200 + 1) / 200)
     still = np.zeros(2000)

@@ -21,7 +21,7 @@ def changed(wanted, **changes):
 
 
 def planned(small, wanted=FEW, *points, model="linear"):
-    return plans.plan_of(load(small.folder), small.layout, "prism", wanted, model, Measured(points, 0.93, "given"))
+    return plans.plan_of(load(small.folder), small.layout, wanted, model, Measured("prism", points, 0.93, "given"))
 
 
 def sine(frequency_ratio, amplitude_ratio):

@@ -19,7 +19,7 @@ from colonnade.campaign.forms.forecast import ForecastInputs
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps import stability_map
-from colonnade.dynamics.models import PLANE_MODELS
+from colonnade.dynamics.models import NONLINEAR
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StoreError
 from colonnade.identification.advice import LAST_PEAK, SpanAdvice, advise_free_vibration, advise_span
@@ -44,6 +44,9 @@ MADE_BY = ("colonnade.workflow.advising",)
 """Module whose code makes advice; what it imports counts too."""
 
 _ADVICE = TypeAdapter(list[Advice])
+
+MODEL = NONLINEAR.name
+"""By which sine tests and earthquakes are advised."""
 
 KINDS = ("free-vibration", "sine", "earthquake")
 """Kinds of test that are advised, in their order."""
@@ -223,17 +226,17 @@ def advise_sines(
     advice : list of Advice
         None at a frequency at which the model does not overturn up to the largest of `AMPLITUDES`.
     """
-    block, settings, model = campaign.block(specimen), campaign.next, _model(campaign)
+    block, settings = campaign.block(specimen), campaign.next
     planned: list[tuple[float, MapPoint | None]] = [
         (2 * pi * test.frequency / block.p, None)
         for test in campaign.tests.values()
         if test.specimen == specimen and test.kind == "sine" and test.frequency and campaign.awaited.get(test.id)
     ]
     groups = at_one_frequency([*planned, *((point.frequency_ratio, point) for point in points)], lambda each: each[0])
-    if not groups or model is None:
+    if not groups:
         return []
     ratios = np.array([np.mean([ratio for ratio, _ in group]) for group in groups])
-    limits_of = partial(_limits, block, tilt, ratios, model)
+    limits_of = partial(_limits, block, tilt, ratios)
     limits, sensitivity = limits_of(restitution), np.zeros(ratios.size)
     if deviation > 0.0:
         low, high = (limits_of(np.clip(np.add(restitution, change), 0.01, 1.0)) for change in (-deviation, deviation))
@@ -252,35 +255,29 @@ def advise_sines(
         discrepancy=settings.discrepancy,
     )
     found = zip(ratios[places].tolist(), advised, strict=True)
-    return [_advice(campaign, specimen, ratio, block, each, model) for ratio, each in found]
+    return [_advice(campaign, specimen, ratio, block, each) for ratio, each in found]
 
 
-def _model(campaign: Campaign) -> str | None:
-    """Name the model that tests are advised by: the last one in the plane."""
-    in_plane = [model for model in campaign.processing.predict.models if model in PLANE_MODELS]
-    return in_plane[-1] if in_plane else None
-
-
-def _limits(block: Block, tilt: float, ratios: Array, model: str, restitution: ArrayLike) -> Array:
+def _limits(block: Block, tilt: float, ratios: Array, restitution: ArrayLike) -> Array:
     """Give the A from which the specimen overturns; on a tilted table its critical angles are to the vertical."""
     lean = atan(sin(tilt))
     negative, positive = (side.critical_angle for side in block.sides)
     leaning = block.override(critical_angle=(negative + lean, positive - lean)) if lean else block
     left, right = np.asarray(restitution).tolist()
     chart = stability_map(
-        leaning, restitution=(left, right), frequency_ratio=ratios, amplitude_ratio=AMPLITUDES, model=model
+        leaning, restitution=(left, right), frequency_ratio=ratios, amplitude_ratio=AMPLITUDES, model=MODEL
     )
     return chart.lower * tan(leaning.critical_angle) / tan(block.critical_angle)
 
 
-def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice, model: str) -> Advice:
+def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice) -> Advice:
     """Write the advice at one frequency."""
-    frequency, amplitude = ratio * block.p / (2 * pi), advised.amplitude_ratio
+    frequency, amplitude, bits = ratio * block.p / (2 * pi), advised.amplitude_ratio, advised.information
     acceleration = amplitude * block.gravity * tan(block.critical_angle)
     demand = demand_of_sine(acceleration, frequency)
     low, high = advised.boundary.interval
     known = (
-        f"overturning begins between A {number(low)} and {number(high)} ({format_percent(0.9)}; {model} model: "
+        f"overturning begins between A {number(low)} and {number(high)} ({format_percent(0.9)}; {MODEL} model: "
         f"{number(advised.boundary.tests.predicted)})"
     )
     return Advice(
@@ -293,12 +290,7 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
         left=advised.left,
         demand=demand,
         beyond=beyond(campaign.table, demand),
-        values={
-            "frequency": frequency,
-            "frequency_ratio": ratio,
-            "amplitude_ratio": amplitude,
-            "bits": advised.information,
-        },
+        values={"frequency": frequency, "frequency_ratio": ratio, "amplitude_ratio": amplitude, "bits": bits},
     )
 
 
@@ -335,8 +327,8 @@ def advise_earthquakes(
             for test, span in listed
             if tests[test.id].status == "done" and (motion := recorded(layout, test)) is not None
         }
-        if done and (model := _model(campaign)) is not None:
-            found.append(_next_span(campaign, specimen, name, done, {span for _, span in listed}, model))
+        if done:
+            found.append(_next_span(campaign, specimen, name, done, {span for _, span in listed}))
     return found
 
 
@@ -346,7 +338,6 @@ def _next_span(
     name: str,
     done: Mapping[float, tuple[Motion, ForecastInputs]],
     planned: set[float],
-    model: str,
 ) -> Advice:
     """Advise the next Span of a motion, by its recordings and what the model was given at the Spans so far."""
 
@@ -355,7 +346,7 @@ def _next_span(
         nearest = min(done, key=lambda tested: abs(np.log(tested / span)))
         moved, inputs = done[nearest]
         scaled = Motion(moved.acceleration * (span / nearest), moved.dt)
-        largest = plan_of(inputs, model, felt(inputs, scaled)).run().peak_ratio
+        largest = plan_of(inputs, MODEL, felt(inputs, scaled)).run().peak_ratio
         outcomes.append(((largest > 0.0).mean(), np.isnan(largest).mean(), scaled.peak))
     rocking, overturning, peaks = np.transpose(outcomes)
     advised = advise_span(spans, rocking, overturning, largest_risk=campaign.next.largest_risk)
@@ -365,7 +356,7 @@ def _next_span(
         kind="earthquake",
         test=f"{name}, Span {number(advised.span)}",
         is_enough=advised.is_enough,
-        reason=_reason(advised, model),
+        reason=_reason(advised),
         risk=advised.probabilities[-1],
         demand=demand,
         beyond=beyond(campaign.table, demand),
@@ -373,9 +364,9 @@ def _next_span(
     )
 
 
-def _reason(advised: SpanAdvice, model: str) -> str:
+def _reason(advised: SpanAdvice) -> str:
     still, rocks, falls = map(probability, advised.probabilities)
-    said = f"no rocking {still}, rocking {rocks}, overturned {falls} by the {model} model"
+    said = f"no rocking {still}, rocking {rocks}, overturned {falls} by the {MODEL} model"
     if advised.is_enough:
         return f"{said}: too certain for a test, as at the other Spans within the risk"
     if advised.is_step:

@@ -20,7 +20,7 @@ from colonnade.campaign.forms.summary import Summary
 from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import Sided
-from colonnade.dynamics.models import MODELS, NONLINEAR
+from colonnade.dynamics.models import MODELS, NONLINEAR, PLANE_MODELS
 from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint, makes_map
 from colonnade.stages.predict import sides
@@ -89,6 +89,7 @@ class Wanted(Table):
 class Measured(NamedTuple):
     """What was measured of a specimen: its sine tests, which a map has to include, its e, and where that comes from."""
 
+    specimen: str
     points: Sequence[MapPoint]
     restitution: Sided
     source: str
@@ -184,20 +185,19 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
         if e is None or not makes_map(map_points(summary.tests, specimen)):
             continue
         measured = _measured(graph, summary, specimen)
-        for model in models_moving(graph.campaign, specimen, graph.campaign.processing.predict.models):
-            if MODELS[model].in_space:
-                continue
-            asked = usual = _product(graph, specimen, Wanted(), model, measured)
+        in_plane = [model for model in graph.campaign.processing.predict.models if model in PLANE_MODELS]
+        for model in models_moving(graph.campaign, specimen, in_plane):
+            asked = usual = _product(graph, Wanted(), model, measured)
             with suppress(KeyError, ValueError, TypeError, CampaignError):
                 wanted = Wanted.model_validate_json(stored_attributes(usual.paths[0])[ASKED])
-                asked = _product(graph, specimen, wanted, model, measured)
+                asked = _product(graph, wanted, model, measured)
             yield usual if asked.why(stored_attributes) else asked
 
 
 def _measured(graph: Graph, summary: Summary | None, specimen: str) -> Measured:
     pooled = restitution_taken(graph.campaign, graph.layout, specimen)
     points = [] if summary is None else map_points(summary.tests, specimen)
-    return Measured(points, sides(pooled), str(pooled.attrs["restitution_source"]))
+    return Measured(specimen, points, sides(pooled), str(pooled.attrs["restitution_source"]))
 
 
 def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> Iterator[MapMade]:
@@ -210,7 +210,7 @@ def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> Iterator[MapMade]
     together, charts = layout.figure(ResultId(specimen, "map", "+".join(models))), []
     for model in models:
         for kind in ("map", "responses") if wanted.responses else ("map",):
-            product, figure = _product(graph, specimen, wanted, model, measured, kind, walk.where), together
+            product, figure = _product(graph, wanted, model, measured, kind, walk.where), together
             walk.follow([[product]])
             if walk.stages[-1].action == "failed":
                 raise StoreError(walk.stages[-1].reason)
@@ -225,9 +225,7 @@ def _of_specimen(walk: Walk, specimen: str, wanted: Wanted) -> Iterator[MapMade]
     files.write_text(together, computed(specimen, charts, measured.points).svg)
 
 
-def plan_of(
-    campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, model: str, measured: Measured
-) -> MapPlan:
+def plan_of(campaign: Campaign, layout: Layout, wanted: Wanted, model: str, measured: Measured) -> MapPlan:
     """
     Plan a specimen's map.
 
@@ -239,6 +237,7 @@ def plan_of(
     from colonnade.dynamics.maps import EDGE, MapPlan
     from colonnade.dynamics.search import STEPS_A_WIDTH, WIDTH
 
+    specimen = measured.specimen
     if model not in models_moving(campaign, specimen, (model,)):
         raise CampaignError(
             f"{specimen}: {APART}, which the {model} model moves. Give --model contact, or another --specimen."
@@ -295,16 +294,10 @@ def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float,
 
 
 def _product(
-    graph: Graph,
-    specimen: str,
-    wanted: Wanted,
-    model: str,
-    measured: Measured,
-    kind: str = "map",
-    where: Where | None = None,
+    graph: Graph, wanted: Wanted, model: str, measured: Measured, kind: str = "map", where: Where | None = None
 ) -> Product:
     """Plan a map or the steady responses on its axes, made in blocks or, without `where`, in one."""
-    plan = plan_of(graph.campaign, graph.layout, specimen, wanted, model, measured)
+    plan = plan_of(graph.campaign, graph.layout, wanted, model, measured)
     attributes, options = {"restitution_source": measured.source}, Options(plan.options)
     if kind == "map":
         attributes[ASKED] = wanted.model_dump_json(exclude={"models", "responses"})
@@ -314,7 +307,7 @@ def _product(
     axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
     given = {"block": hash_of(repr(plan.block)), "axes": hash_of(axes)}
     work = partial(_in_blocks, kind, plan, attributes)
-    return graph.product(ResultId(specimen, kind, model), options, given, work, *MADE_BY, where=where)
+    return graph.product(ResultId(measured.specimen, kind, model), options, given, work, *MADE_BY, where=where)
 
 
 def _in_blocks(
