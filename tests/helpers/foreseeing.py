@@ -1,8 +1,11 @@
 """A campaign with forecasts of a test that is planned."""
 
 import shutil
+from pathlib import Path
+from typing import NamedTuple
 
 from colonnade.campaign import load
+from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.store.layout import Layout
 from colonnade.workflow.asked import checked
 from colonnade.workflow.foresee import AskedForecast, foresee
@@ -20,9 +23,17 @@ planned = true
 """
 
 
+class Made(NamedTuple):
+    """A forecast and its file."""
+
+    path: Path
+    forecast: ForecastFile
+
+
 def foreseen_of(folder, **asked):
     """Make forecasts as the command does."""
-    return foresee(load(folder), Layout(folder), checked(AskedForecast, asked))
+    made = foresee(load(folder), Layout(folder), checked(AskedForecast, asked))
+    return [Made(*each) for each in made.items()]
 
 
 def foresee_a_planned_test(filled, folder):

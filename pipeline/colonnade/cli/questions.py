@@ -24,10 +24,11 @@ from colonnade.cli.common.console import (
 from colonnade.errors import count
 
 if TYPE_CHECKING:
+    from colonnade.campaign.forms.forecast import ForecastFile
     from colonnade.store.records.advice import Advice
     from colonnade.workflow.asked import Given
     from colonnade.workflow.assessing import Assessed
-    from colonnade.workflow.foresee import AskedForecast, Forecast
+    from colonnade.workflow.foresee import AskedForecast
     from colonnade.workflow.maps import MapMade, Wanted
     from colonnade.workflow.spectrum import AskedSpectrum
 
@@ -53,18 +54,17 @@ def foresee(campaign: Path, asked: AskedForecast, results: Path | None, as_json:
     with work_progress("Foreseeing") as progress:
         made = make(*options.opened(campaign, results), asked, progress)
     if as_json:
-        show_json([{"file": each.path, **each.forecast.model_dump(by_alias=True)} for each in made])
+        show_json([{"file": path, **forecast.model_dump(by_alias=True)} for path, forecast in made.items()])
         return
-    for each in made:
-        _show(each)
-        say(f"forecast: {each.path}")
+    for path, forecast in made.items():
+        _show(forecast)
+        say(f"forecast: {path}")
 
 
-def _show(made: Forecast) -> None:
+def _show(forecast: ForecastFile) -> None:
     """Write what the table must do, and under it what each model foresees, side by side."""
     from colonnade.store.records.forecast import FORESEEN, shown_model, shown_table
 
-    forecast = made.forecast
     acceleration, velocity, displacement = shown_table(forecast.table)
     show_paragraph(f"{forecast.level}: the table reaches {acceleration}; velocity {velocity}; stroke {displacement}")
     columns = [shown_model(model) for model in forecast.models.values()]

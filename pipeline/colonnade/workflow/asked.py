@@ -92,14 +92,9 @@ class FoundColumn:
     real: RealColumn
     source: str
 
-    @property
-    def restitution(self) -> tuple[float, float]:
-        """e of impacts that end an arc at θ < 0, and at θ > 0."""
-        return pair(self.real.restitution)
-
     def fields(self) -> list[tuple[str, str]]:
         """Write what it is."""
-        e, block = " | ".join(dict.fromkeys(number(each, 4) for each in self.restitution)), self.real.block
+        e, block = " | ".join(dict.fromkeys(number(each, 4) for each in pair(self.real.restitution))), self.real.block
         return [
             ("column", self.name),
             ("critical angle α", quantity(block.critical_angle, "rad", 4)),
@@ -117,7 +112,8 @@ class FoundColumn:
     def record(self) -> dict[str, Any]:
         """Give it for programs, SI."""
         of_block = {key: getattr(self.real.block, key) for key in ("critical_angle", "p", "uplift_acceleration")}
-        return {"name": self.name, **of_block, "restitution": self.restitution, "restitution_source": self.source}
+        e = pair(self.real.restitution)
+        return {"name": self.name, **of_block, "restitution": e, "restitution_source": self.source}
 
 
 def find_column(

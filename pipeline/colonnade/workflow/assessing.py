@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -145,10 +146,9 @@ def assessing(graph: Graph, name: str, asked: Assessment, where: Where) -> Produ
 
 def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:
     """Hash the files that an assessment reads; a set that cannot be listed is reported when it is read."""
-    try:
+    records: Sequence[Path] = ()
+    with suppress(ReadError):
         records = files_of(asked.records)
-    except ReadError:
-        records = []
     # Files of a list may have one name, in different folders.
     digests = [[path.name, _digest(catalogue, path)] for path in records]
     return {"records": hash_of(digests), "hazard": None if asked.hazard is None else _digest(catalogue, asked.hazard)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -63,17 +63,9 @@ class AskedForecast(Table):
             yield ("levels",), f"{len(self.levels)} were found. A forecast of a test, here of {self.test}, has one."
 
 
-@dataclass(frozen=True)
-class Forecast:
-    """A forecast, and its file."""
-
-    path: Path
-    forecast: forms.ForecastFile
-
-
 def foresee(
     campaign: Campaign, layout: Layout, asked: AskedForecast, progress: Counted = lambda done, total: None
-) -> list[Forecast]:
+) -> dict[Path, forms.ForecastFile]:
     """
     Forecast what a specimen does on a base motion, with what is known so far.
 
@@ -87,8 +79,8 @@ def foresee(
 
     Returns
     -------
-    forecasts : list of Forecast
-        One a level, in their order. Nothing is written before all levels are found valid.
+    forecasts : dict of Path to ForecastFile
+        By their files, one a level, in their order. Nothing is written before all levels are found valid.
 
     Raises
     ------
@@ -112,7 +104,11 @@ def foresee(
             "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
         )
     inputs, catalogue = inputs_of(campaign, layout, name, tilt), Catalogue(layout)
-    code, there, found = catalogue.code(MADE_BY), _raw_files(campaign, layout, catalogue, own), []
+    code, there, found = (
+        catalogue.code(MADE_BY),
+        _raw_files(campaign, layout, catalogue, own),
+        dict[Path, forms.ForecastFile](),
+    )
     for number, (level, factor) in enumerate(factors.items(), 1):
         expect_none()
         moved = Motion(factor * base.motion.acceleration, base.motion.dt * time_scale)
@@ -136,7 +132,7 @@ def foresee(
             models={model: _by_model(inputs, model, moved) for model in models},
             raw_files=there,
         )
-        found.append(Forecast(write_forecast(layout, forecast), forecast))
+        found[write_forecast(layout, forecast)] = forecast
         progress(number, len(factors))
     return found
 

@@ -146,11 +146,11 @@ def _rocking(column: FoundColumn, asked: AskedSpectrum, motion: Motion, source: 
         motion,
         critical_angle=[block.critical_angle, *asked.slenderness],
         period=np.geomspace(*(asked.periods or (own / REACH, own * REACH)), asked.points),
-        restitution=column.restitution,
+        restitution=column.real.restitution,
         model=asked.model,
         gravity=block.gravity,
     )
-    history = rock(block, motion, restitution=column.restitution, model=asked.model)
+    history = rock(block, motion, restitution=column.real.restitution, model=asked.model)
     measures = intensity_measures(motion, block, drift=asked.drift, at_rest=is_table)
     peak = history.peak_ratio
     rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
@@ -203,7 +203,7 @@ def _overturning(column: FoundColumn, asked: AskedSpectrum) -> Answer:
         cycles=asked.cycles,
         phase=radians(asked.phase),
         frequency_ratio=np.linspace(*asked.omega, asked.points),
-        restitution=column.restitution,
+        restitution=column.real.restitution,
         model=asked.model,
         largest=asked.largest,
         width=asked.least_width,
