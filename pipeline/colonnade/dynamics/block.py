@@ -27,19 +27,14 @@ LEAST, LARGEST = 1e-60, 1e60
 
 @dataclass(frozen=True)
 class Side:
-    """
-    The block as it rocks about one edge of its base.
-
-    Attributes
-    ----------
-    critical_angle, pole_distance, inertia : float
-        α, rad: the rotation that brings the centre of mass above the pole; R, m, from there to the centre of mass; I₀,
-        kg m², about the pole.
-    """
+    """The block as it rocks about one edge of its base."""
 
     critical_angle: float
+    """α, rad: the rotation that brings the centre of mass above the pole."""
     pole_distance: float
+    """R, m, from the pole to the centre of mass."""
     inertia: float
+    """I₀, kg m², about the pole."""
 
     def __post_init__(self) -> None:
         number("critical_angle", self.critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
