@@ -129,7 +129,7 @@ def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign,
 @pytest.mark.usefixtures("interruptible")
 def test_ending_a_watch_is_no_error(campaign):
     watching = started(campaign, "watch", "--workers", "1")
-    await_path(campaign / "processed" / ".watcher")
+    await_path(campaign / "report" / "state.js")
     watching.send_signal(signal.SIGHUP)
     _, complaints = watching.communicate(timeout=60)
     assert (watching.returncode, complaints) == (0, "The watch has ended. All results are kept.\n")

@@ -1,15 +1,22 @@
-"""The graph of results, what its steps hand on, and what a run gives back."""
+"""The graph of results, what its steps hand on, what a run gives back, and the raw files at its beginning."""
 
+import os
+from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from colonnade.campaign import load
 from colonnade.findings import note, serious, warning
+from colonnade.store import files
 from colonnade.store.results import results_of
+from colonnade.workflow import graph as module
 from colonnade.workflow.chain import RunResult, StageRun
-from colonnade.workflow.graph import Graph
+from colonnade.workflow.graph import Graph, RawFile, copies
 from colonnade.workflow.product import Catalogue
+from every import every
+from raw_files import Column, diadem
 
 
 @pytest.fixture
@@ -52,32 +59,154 @@ def result(*stages, **given):
     return RunResult(stages, Path("summary.json"), None, **given)
 
 
-def test_a_stage_of_a_specimen_is_listed_as_one():
-    assert StageRun("prism", "specimen", "done").heading == "specimen prism"
-    assert StageRun("prism", "contact", "done").of == "specimen"
-    assert StageRun("free-01", "predict", "done", "linear").heading == "free-01"
-
-
-@pytest.mark.parametrize(
-    ("actions", "failed"), [(["done", "up-to-date"], False), (["done", "failed"], True), ([], False)]
-)
-def test_one_failed_stage_makes_it_a_failure(actions, failed):
-    assert result(*(StageRun("a", "ingest", action) for action in actions)).failed == failed
-
-
-def test_findings_are_gathered_by_subject_the_worst_first():
+def test_what_became_of_stages_is_told_by_subject_the_worst_first():
     mild, bad = note("gap", "a gap."), serious("gain", "a wrong gain.")
-    found = result(
+    told = result(
         StageRun("a", "ingest", "done", findings=(mild,)),
         StageRun("a", "rocking", "up-to-date", findings=(bad,)),
+        StageRun("prism", "contact", "failed", findings=(mild,)),
         StageRun("b", "ingest", "done"),
         of_campaign=(warning("column", "an unused column."),),
-    ).findings
-    assert list(found) == ["campaign file", "a"]
-    assert [each.text for each, _ in found["a"]] == ["a wrong gain.", "a gap."]
+    )
+    assert list(told.findings) == ["campaign file", "a", "specimen prism"]
+    assert [each.text for each, _ in told.findings["a"]] == ["a wrong gain.", "a gap."]
+    assert told.failed
+    assert not result(StageRun("a", "ingest", "done"), StageRun("a", "rocking", "up-to-date")).failed
 
 
 @pytest.mark.parametrize(("finding", "counts"), [(note("gap", "x."), False), (warning("gap", "x."), True)])
 def test_notes_are_no_warnings(finding, counts):
     assert result(StageRun("a", "ingest", "done", findings=(finding,))).has_warnings == counts
     assert result(of_campaign=(finding,)).has_warnings == counts
+
+
+@pytest.fixture
+def seen(untouched, monkeypatch):
+    """Looks at the raw file of one test with a catalogue, and which files were hashed."""
+    campaign, hashed = load(untouched.folder), []
+    sha256_of = module.sha256_of
+    monkeypatch.setattr(module, "sha256_of", lambda path: hashed.append(path.name) or sha256_of(path))
+    untouched.layout.processed.mkdir(exist_ok=True)
+    return lambda catalogue: Graph(campaign, untouched.layout, catalogue).raw(campaign.tests["pulse-01"]), hashed
+
+
+def test_a_file_is_hashed_once_until_its_size_time_or_place_changes(untouched, seen):
+    look, hashed = seen
+    catalogue = Catalogue(untouched.layout)
+    assert look(catalogue) == look(catalogue)
+    catalogue.save()
+    first = look(Catalogue(untouched.layout))
+    assert hashed == ["pulse-01.csv"]
+    os.utime(untouched.raw("pulse-01"), (1, 1))
+    again = look(Catalogue(untouched.layout))
+    assert hashed == ["pulse-01.csv"] * 2
+    assert again["raw/pulse-01.csv"].sha256 == first["raw/pulse-01.csv"].sha256
+
+
+def test_a_file_that_is_not_there_has_no_hash(untouched, seen):
+    untouched.raw("pulse-01").unlink()
+    found = seen[0](Catalogue(untouched.layout))["raw/pulse-01.csv"]
+    assert found.sha256 is None
+
+
+@pytest.fixture
+def told(small):
+    """Give the findings for some digests of two tests, with lines added to both entries."""
+
+    def give(*digests, lines=("", "")):
+        for name, line in zip(("free-01", "free-02"), lines, strict=True):
+            small.edit(f'file = "raw/{name}.csv"', f'file = "raw/{name}.csv"{line}')
+        campaign = load(small.folder)
+        tests = zip(campaign.tests, digests, strict=False)
+        raw = {test: {path: RawFile(each, (1, 1, 1)) for path, each in files.items()} for test, files in tests}
+        return [found.text for found in copies(campaign, raw)]
+
+    return give
+
+
+@every(
+    "digests",
+    [
+        [{"raw/a.csv": "1"}, {"raw/b.csv": "2"}],
+        [{"raw/a.csv": "1", "raw/b.csv": "1"}],
+        [{"raw/a.csv": None}, {"raw/b.csv": None}],
+    ],
+)
+def test_files_that_differ_or_are_of_one_test_or_empty_are_no_copies(told, digests):
+    assert told(*digests) == []
+
+
+@every(
+    ("digests", "named"),
+    [
+        ([{"raw/a.csv": "1"}, {"raw/a.csv": "1"}], "raw/a.csv"),
+        ([{"raw/a.csv": "1", "raw/a.tdx": "2"}, {"raw/b.csv": "1", "raw/b.tdx": "2"}], "raw/a.tdx, raw/b.tdx"),
+    ],
+)
+def test_two_tests_of_one_file_or_of_its_copy_are_one_recording(told, digests, named):
+    (text,) = told(*digests)
+    assert text.startswith(f"free-01, free-02 are one recording: {named}. ")
+
+
+def test_windows_keep_two_tests_of_one_file_apart(told):
+    windows = ('\nwindow = ["0 s", "11 s"]', '\nwindow = ["9 s", "20 s"]')
+    assert told({"raw/a.csv": "1"}, {"raw/a.csv": "1"}, lines=windows) == []
+
+
+@pytest.fixture
+def in_two_parts(untouched):
+    """The small campaign with one test whose raw file is in two parts, once run up to ingest."""
+    raw = untouched.raw("pulse-01")
+    time, top, table = np.loadtxt(raw, delimiter=",", skiprows=1, unpack=True)
+    diadem(raw, time, [Column("top", "mm", top), Column("table", "m/s^2", table)])
+    assert not untouched.run(only="pulse-01", until="ingest").failed
+    return untouched
+
+
+def values_of(campaign):
+    return campaign.raw("pulse-01").with_suffix(".tdx")
+
+
+def alter(path):
+    content = bytearray(path.read_bytes())
+    content[-2] ^= 0x20
+    path.write_bytes(content)
+
+
+def test_both_parts_are_in_the_provenance_and_altered_values_are_ingested_again(in_two_parts):
+    attributes = files.read_attributes(in_two_parts.layout.stage("pulse-01", "ingest"))
+    assert list(attributes["raw_files"]) == ["raw/pulse-01.csv", "raw/pulse-01.tdx"]
+    assert all(len(digest) == 64 for digest in attributes["raw_sha256"])
+    redone = partial(in_two_parts.redone, only="pulse-01", until="ingest")
+    assert redone() == {}
+    alter(values_of(in_two_parts))
+    assert redone() == {("pulse-01", "ingest"): "raw file changed"}
+    assert redone() == {}
+
+
+def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, monkeypatch):
+    expect = module.expect_unchanged
+    for change in (alter, Path.unlink):
+        with monkeypatch.context() as still:
+
+            def still_copying(*arguments, change=change):
+                change(values_of(in_two_parts))
+                expect(*arguments)
+
+            still.setattr(module, "expect_unchanged", still_copying)
+            result = in_two_parts.run(only="pulse-01", until="ingest", start_from="ingest")
+        assert "raw/pulse-01.tdx: this file changed while it was being read" in result.stages[0].reason
+        assert not in_two_parts.layout.stage("pulse-01", "ingest").exists()
+
+
+def test_values_that_are_a_link_out_of_the_campaign_are_refused_and_not_hashed(in_two_parts, tmp_path):
+    values = values_of(in_two_parts)
+    outside = values.rename(tmp_path / "outside")
+    values.symlink_to(outside)
+    (failed,) = in_two_parts.run(only="pulse-01", until="ingest").stages
+    assert "its values are in pulse-01.tdx, which is a link to" in failed.reason
+    attributes = files.read_attributes(in_two_parts.layout.stage("pulse-01", "ingest"))
+    assert not attributes["raw_sha256"][1]
+    values.unlink()
+    outside.rename(values)
+    assert not in_two_parts.run(only="pulse-01", until="ingest").failed

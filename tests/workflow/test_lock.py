@@ -54,7 +54,7 @@ def run_once(campaign_file, results=None):
         pass
 
 
-def test_two_campaigns_do_not_share_one_folder_of_results_and_a_copy_is_a_campaign_of_its_own(small, tmp_path):
+def test_two_campaigns_or_files_do_not_share_one_folder_of_results_and_a_copy_is_a_campaign_of_its_own(small, tmp_path):
     results, other = tmp_path / "results", shutil.copytree(small.folder, tmp_path / "other")
     of_small, of_other = small.folder / "campaign.toml", other / "campaign.toml"
     for _ in range(2):
@@ -64,15 +64,7 @@ def test_two_campaigns_do_not_share_one_folder_of_results_and_a_copy_is_a_campai
         run_once(of_other, results)
     with pytest.raises(StoreError, match="results of another campaign"):
         run_once(of_other, small.folder)
-    run_once(small.folder.rename(tmp_path / "moved") / "campaign.toml", results)
-
-
-def test_two_campaign_files_of_one_folder_do_not_share_its_results(small):
-    first, second = small.folder / "campaign.toml", small.folder / "second.toml"
-    shutil.copy(first, second)
-    run_once(first)
+    second = shutil.copy(of_small, small.folder / "second.toml")
     with pytest.raises(StoreError, match=r"another campaign, .*campaign\.toml, .* of its own with --results"):
         run_once(second)
-    run_once(second, small.folder / "second")
-    first.unlink()
-    run_once(second)
+    run_once(small.folder.rename(tmp_path / "moved") / "campaign.toml", results)

@@ -126,15 +126,6 @@ def test_a_run_with_nothing_to_do_opens_no_result_of_a_test(small, opened):
     assert opened == []
 
 
-def test_a_result_that_was_replaced_is_looked_at_again(small, opened):
-    path = small.layout.stage("pulse-01", "rocking")
-    before = Catalogue(small.layout).attributes(path)
-    files.write_failed(path, "replaced by the test", attributes={"stage": "rocking"})
-    after = Catalogue(small.layout).attributes(path)
-    assert after["content"] != before["content"]
-    assert opened == ["rocking.nc"]
-
-
 NO_CATALOGUE = (
     "",
     "no JSON",

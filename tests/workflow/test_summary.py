@@ -55,17 +55,6 @@ def test_the_specimens_restitution_is_the_true_one_with_its_interval(undisturbed
     assert restitution["value"] == pytest.approx(0.93, abs=0.002)  # by which the raw files were written
 
 
-def test_a_free_vibration_shows_peaks_and_whole_history(undisturbed):
-    found = undisturbed.summary()["tests"]["free-01"]["restitution"]
-    stored = files.read(undisturbed.layout.stage("free-01", "restitution"))
-    assert found["value"] == float(stored["restitution"])
-    assert set(found["whole_history"]) == {"nonlinear"}
-    history = found["whole_history"]["nonlinear"]
-    assert history["value"] == float(stored["estimate"].sel(estimator="history"))
-    assert history["value"] == pytest.approx(0.93, abs=1e-3)
-    assert history["low"] < history["value"] < history["high"]
-
-
 def test_warnings_of_stages_are_the_tests_warnings(small):
     text = small.raw("pulse-01").read_text(encoding="utf-8").splitlines()
     text[50] = "0.245000,OVERFLOW,0.0"

@@ -81,10 +81,6 @@ class Layout:
     """Who holds the lock."""
     owner = _in("processed", ".campaign")
     """The campaign file whose results these are: its name if they are in its own folder, else its path."""
-    watch_lock = _in("processed", ".watch-lock")
-    """Locked while somebody watches the raw folder."""
-    watcher = _in("processed", ".watcher")
-    """Who watches."""
     watch_log = _in("processed", "watch.log")
     """What `watch` said and did."""
     report = _in("home", "report/index.html")

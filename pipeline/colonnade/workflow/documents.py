@@ -142,12 +142,9 @@ def chosen(campaign: Campaign, name: str, subject: str | None) -> tuple[Entry, s
     for each, entry in of.items():
         if subject in ids[each] or (subject is None and len(ids[each]) == 1):
             return entry, subject or ids[each][0]
-    kinds = [each for each in of if each != "campaign"]
-    hint = nearest(subject or "", [known for each in kinds for known in ids[each]])
-    if not kinds:
-        raise CampaignError(f'"{name}" is a figure of the whole campaign. Leave out "{subject}".')
-    named = "" if subject is None else f', and the campaign has no "{subject}"'
-    raise CampaignError(f'"{name}" is a figure of a {" or a ".join(kinds)}{named}. Name one.{hint}')
+    named = "" if subject is None else f', not of "{subject}"'
+    hint = nearest(subject or "", [known for each in of for known in ids[each] if known])
+    raise CampaignError(f'"{name}" is a figure of a {" or a ".join(of)}{named}.{hint}')
 
 
 def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -> Picture | Movie:

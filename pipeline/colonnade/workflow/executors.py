@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import signal
 import threading
@@ -234,8 +233,6 @@ def settle_in(parent: int) -> None:
 _PATIENCE = 10
 """Seconds until a scheduler answers, and until it has a worker."""
 
-_ADDRESS = re.compile(r"([a-z]+://)?[^\s/]+:\d{1,5}")
-
 
 @contextmanager
 def _on_cluster(scheduler: str) -> Iterator[Workers]:
@@ -254,8 +251,6 @@ def _on_cluster(scheduler: str) -> Iterator[Workers]:
             "`--scheduler` needs the package `distributed`, which is not installed here: pip install colonnade[cluster]"
         ) from error
     try:
-        if not _ADDRESS.fullmatch(scheduler):
-            raise ValueError("that is not an address")
         client = distributed.Client(scheduler, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
         raise ColonnadeError(

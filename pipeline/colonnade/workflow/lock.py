@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 from uuid import uuid4
@@ -24,51 +24,33 @@ def is_refusal(said: str) -> bool:
     return _RUNNING in said
 
 
-def only_run(layout: Layout) -> AbstractContextManager[str]:
+@contextmanager
+def only_run(layout: Layout) -> Iterator[str]:
     """
     Hold a campaign's lock, and remove what a killed run left half-written.
 
-    Returns
-    -------
-    held : context manager of str
-        Gives the name of the run, by which other processes ask whether it still goes on (`expect_run`).
+    Yields
+    ------
+    run_id : str
+        The name of the run, by which other processes ask whether it still goes on (`expect_run`).
 
     Raises
     ------
     StoreError
         If another run holds it, or the folders of results cannot be written or lead elsewhere through a link.
     """
-    refusal = f"{_RUNNING}, by {{}}. Wait for that run to end, or stop it: only one run at a time may write results."
-    return _held(layout, layout.lock, layout.lock_holder, refusal, sweeps=True)
-
-
-def only_watch(layout: Layout) -> AbstractContextManager[str]:
-    """
-    Hold the lock of whoever watches a campaign; runs may go on meanwhile.
-
-    Raises
-    ------
-    StoreError
-        If another process watches it, which is named, or the folders of results cannot be written.
-    """
-    refusal = "this campaign is already being watched, by {}. One watch is enough."
-    return _held(layout, layout.watch_lock, layout.watcher, refusal)
-
-
-@contextmanager
-def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: bool = False) -> Iterator[str]:
-    """
-    Hold a lock and say by whom; give the name of this holding. If it `sweeps`, it removes what is half-written.
-    """
     try:
-        if path.is_symlink():
-            path.unlink()
+        if layout.lock.is_symlink():
+            layout.lock.unlink()
         layout.processed.mkdir(parents=True, exist_ok=True)
-        lock = FileLock(path)
+        lock = FileLock(layout.lock)
         lock.acquire(timeout=0)
     except Timeout:
-        _, _, who = _said_by(holder).partition(" ")
-        raise StoreError(f"{layout.folder}: {refusal.format(who or 'another process')}") from None
+        _, _, who = _said_by(layout.lock_holder).partition(" ")
+        raise StoreError(
+            f"{layout.folder}: {_RUNNING}, by {who or 'another process'}. Wait for that run to end, or stop it: only "
+            "one run at a time may write results."
+        ) from None
     except OSError as error:
         raise StoreError(
             f"{layout.processed}: results cannot be written here ({error.strerror or error}). A writable folder with "
@@ -78,14 +60,13 @@ def _held(layout: Layout, path: Path, holder: Path, refusal: str, *, sweeps: boo
     try:
         _expect_own(layout)
         since = datetime.now().astimezone().isoformat("T", "seconds")
-        write_text(holder, f"{run_id} process {os.getpid()} on {platform.node()}, since {since}\n")
-        if sweeps:
-            for each in (*half_written(layout.processed), *half_written(layout.report.parent)):
-                remove(each)
+        write_text(layout.lock_holder, f"{run_id} process {os.getpid()} on {platform.node()}, since {since}\n")
+        for each in (*half_written(layout.processed), *half_written(layout.report.parent)):
+            remove(each)
         yield run_id
     finally:
         try:
-            remove(holder)
+            remove(layout.lock_holder)
         finally:
             lock.release()
 

@@ -13,7 +13,6 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -141,15 +140,11 @@ class Catalogue:
 
         The sources are parsed only if one of them changed.
         """
-        name = " ".join(["code", self._package, *made_by, *([model] if model else [])])
+        name = " ".join(["code", package_hash(), *made_by, *([model] if model else [])])
         if name not in self._seen:
             others = {each.engine for each in MODELS.values()} - {MODELS[model].engine} if model else ()
             self._seen[name] = self._known.get(name) or code_hash(made_by, alone=OWN_CODE_ONLY, without=others)
         return str(self._seen[name])
-
-    @cached_property
-    def _package(self) -> str:
-        return package_hash()
 
     def remove_altered(self) -> Iterator[str]:
         """

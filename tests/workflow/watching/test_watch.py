@@ -11,7 +11,7 @@ import pytest
 
 from colonnade.errors import StoreError
 from colonnade.store.records.advice import Advice
-from colonnade.workflow.lock import is_refusal, only_run, only_watch
+from colonnade.workflow.lock import is_refusal, only_run
 from colonnade.workflow.watching import watch as module
 from colonnade.workflow.watching.measure import Line
 from colonnade.workflow.watching.watch import Behind, Ended, watch
@@ -90,10 +90,9 @@ def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(smal
     code, said = watched(small)
     assert (code, crashing.starts) == (1, 1)
     assert [sentence.splitlines()[0] for sentence in said] == [
-        "No new file. Results and report are brought up to date.",
         "The run behind the watch failed: OSError: y",
     ]
-    assert str(small.layout.watch_log) in said[1]
+    assert str(small.layout.watch_log) in said[0]
     assert "Traceback" in small.layout.watch_log.read_text(encoding="utf-8")
 
 
@@ -103,7 +102,7 @@ def test_a_run_behind_that_is_refused_is_tried_again_and_a_share_that_is_gone_is
     monkeypatch.setattr(module, "AGAIN", 0.1)
     crashing.ends = [Ended((), "small: this campaign is already being run"), Ended()]
     code, said = watched(small, share=small.folder / "gone")
-    assert (code, crashing.starts, len(said)) == (0, 2, 2)
+    assert (code, crashing.starts, len(said)) == (0, 2, 1)
     assert "this folder cannot be seen" in said[0]
 
 
@@ -148,11 +147,6 @@ def test_advice_after_a_free_vibration_knows_those_just_before_it(small, crashin
     lines = [each.text() for each in shown]
     assert "identified from 2 free vibrations" in lines[2]
     assert "from 2" in lines[3]
-
-
-def test_a_second_watch_names_the_first(small):
-    with only_watch(small.layout), pytest.raises(StoreError, match=r"already being watched, by process \d+"):
-        watch(small.folder, once=True, show=lambda line: None, say=lambda sentence: None)
 
 
 def wait_until(condition):

@@ -25,7 +25,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising import advise_after
 from colonnade.workflow.executors import settle_in
-from colonnade.workflow.lock import is_refusal, only_watch
+from colonnade.workflow.lock import is_refusal
 from colonnade.workflow.product import marks_of
 from colonnade.workflow.watching.arrivals import POLL, Arrivals, Share, listening
 from colonnade.workflow.watching.measure import Line, measure, measured, notify
@@ -83,14 +83,12 @@ def watch(
     ------
     CampaignError
         If the campaign file is not usable at the start.
-    StoreError
-        If another process watches the campaign, or results cannot be written.
     """
     loaded = load(Path(campaign)).awaiting()
     layout = Layout.of(loaded.path, results)
     folder = loaded.folder / loaded.watch.folder
     shared = None if share is None else Share(share, folder, Arrivals(loaded.watch.settle))
-    with only_watch(layout), listening(folder) as wait:
+    with listening(folder) as wait:
         watching = _Watching(loaded, layout, wait, workers, command, show, say, once, shared)
         try:
             return watching.until_done()
@@ -132,8 +130,6 @@ class _Watching:
     def until_done(self) -> int:
         """Watch until a signal ends it or, if it is only asked for once, until nothing is left to do."""
         self._look()
-        if self.is_once and not (self._arrivals.is_waiting or self._due):
-            self._say_once("No new file. Results and report are brought up to date.")
         while True:
             is_busy = self._arrivals.is_waiting or self._due or self._behind
             if self.is_once and not (is_busy or self._is_outdated):
