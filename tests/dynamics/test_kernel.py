@@ -4,9 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
-import numba
 import pytest
 
 from colonnade.dynamics import kernel
@@ -61,10 +59,6 @@ def asked(package, **environment):
     return float(value), int(hits), int(misses)
 
 
-def folders(place):
-    return sorted(place.glob(kernel.FOLDER + "*"))
-
-
 @pytest.mark.whole
 def test_kept_machine_code_follows_every_source_that_it_is_made_of(package):
     assert asked(package) == (7.0, 0, 1)
@@ -75,7 +69,7 @@ def test_kept_machine_code_follows_every_source_that_it_is_made_of(package):
     assert asked(package) == (5.0, 0, 1)
     (package / "other.py").write_text("not_in_a_kernel = 1\n")
     assert asked(package) == (5.0, 1, 0)
-    assert len(folders(package / "__pycache__")) == 3
+    assert len(list((package / "__pycache__").glob("caller.raised-*.nbi"))) == 3
 
 
 @pytest.mark.whole
@@ -83,33 +77,14 @@ def test_without_any_folder_each_process_compiles(package, tmp_path):
     (package / "__pycache__").touch()  # a file, so that nothing can be put there
     (tmp_path / "file").touch()
     nowhere = str(tmp_path / "file" / "inside")
-    assert asked(package, NUMBA_CACHE_DIR=nowhere, XDG_CACHE_HOME=nowhere) == (7.0, 0, 1)
-    assert not folders(tmp_path)
+    for _ in range(2):
+        assert asked(package, XDG_CACHE_HOME=nowhere) == (7.0, 0, 1)
 
 
-def found(monkeypatch, *places):
-    monkeypatch.setattr(kernel, "_places", lambda: iter(places))
-    return kernel._cache_folder.__wrapped__()
-
-
-def test_the_first_place_that_can_be_written_is_used(monkeypatch, tmp_path):
-    (tmp_path / "file").touch()
-    first, second = tmp_path / "file" / "inside", tmp_path / "second"
-    assert found(monkeypatch, first, second) == folders(second)[0]
-    assert found(monkeypatch, first) is None
-
-
-def test_the_users_folder_comes_before_the_package_and_that_before_the_home(monkeypatch, tmp_path):
-    monkeypatch.setattr("numba.config.CACHE_DIR", str(tmp_path))
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home"))
-    assert list(kernel._places()) == [
-        tmp_path,
-        Path(kernel.__file__).parent / "__pycache__",
-        tmp_path / "home" / "colonnade",
-    ]
-
-
-def test_other_packages_keep_their_setting(monkeypatch):
-    monkeypatch.setattr("numba.config.CACHE_DIR", "theirs")
-    kernel.kernel(lambda x: x)
-    assert numba.config.CACHE_DIR == "theirs"
+@pytest.mark.whole
+def test_machine_code_is_kept_where_the_user_says_or_else_at_home(package, tmp_path):
+    (package / "__pycache__").touch()
+    for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME"):
+        found = [asked(package, **{name: str(tmp_path / name)}) for _ in range(2)]
+        assert found == [(7.0, 0, 1), (7.0, 1, 0)]
+        assert list((tmp_path / name).rglob("caller.raised-*.nbi"))

@@ -1,34 +1,26 @@
-"""How numerical kernels are compiled, and the folder that caches their machine code."""
+"""How numerical kernels are compiled, and how their machine code is kept between runs."""
 
 from __future__ import annotations
 
 import hashlib
 import re
-import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from threading import Lock
 from typing import Any, TypeVar, cast
 
 import numba
-from numba.misc import appdirs
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 PACKAGE = Path(__file__).parents[1]
-FOLDER = "colonnade-kernels-"
-"""What the name of a cache folder begins with; the hash of the kernels' sources follows."""
 
-_SETTINGS: Any = numba.config
-_APPDIRS: Any = appdirs
 _OPTIONS: Any = {"nogil": True, "error_model": "numpy", "forceinline": True}
 """Kernels that are called are put in line: as calls, the parts that the engines share cost a run half as much again."""
 
 _MARK = b"\n@kernel"
 _IMPORT = re.compile(rb"^from " + PACKAGE.name.encode() + rb"\.([\w.]+) import ", re.MULTILINE)
-_DECORATING = Lock()
 
 
 def kernel(function: Function) -> Function:
@@ -37,11 +29,12 @@ def kernel(function: Function) -> Function:
 
     Notes
     -----
-    A kernel touches no Python object, so it lets other threads run. Without a writable folder (a read-only installation
-    without a home) it is compiled again in each process.
+    A kernel touches no Python object, so it lets other threads run. Its machine code is kept where numba puts it: in
+    NUMBA_CACHE_DIR, beside the source, or in the user's cache. Without a folder that can be written (a read-only
+    installation without a home) it is compiled again in each process.
 
     numba sees when a kernel's own file changes, but not when a kernel that it calls changes in another file. So the
-    machine code is kept in a folder named by the hash of all sources that kernels are made of.
+    machine code is kept under a name with the hash of all sources that kernels are made of.
     """
     return _compiled(function)
 
@@ -66,40 +59,14 @@ def kernel_fused(function: Function) -> Function:
 
 
 def _compiled(function: Function, **options: Any) -> Function:
-    compiled, folder = numba.njit(**_OPTIONS, **options)(function), _cache_folder()
-    if folder is not None:
-        with _DECORATING:
-            # numba reads its setting here; kernels of other packages keep theirs.
-            theirs, _SETTINGS.CACHE_DIR = _SETTINGS.CACHE_DIR, str(folder)
-            with suppress(RuntimeError):  # no source file, as in a frozen program
-                compiled.enable_caching()
-            _SETTINGS.CACHE_DIR = theirs
+    function.__qualname__ += f"-{_hash_of_sources()}"
+    compiled = numba.njit(**_OPTIONS, **options)(function)
+    with suppress(RuntimeError):  # no folder, or no source file, as in a frozen program
+        compiled.enable_caching()
     return cast("Function", compiled)
 
 
 @cache
-def _cache_folder() -> Path | None:
-    """Return the cache folder of these sources, in the first place that can be written; None if nothing can."""
-    name = FOLDER + _hash_of_sources()
-    for place in _places():
-        folder = place / name
-        with suppress(OSError):
-            folder.mkdir(parents=True, exist_ok=True)
-            tempfile.TemporaryFile(dir=folder).close()
-            return folder
-    return None
-
-
-def _places() -> Iterator[Path]:
-    """Give the user's choice, then the package itself, then the user's cache."""
-    if _SETTINGS.CACHE_DIR:
-        yield Path(_SETTINGS.CACHE_DIR)
-    yield Path(__file__).parent / "__pycache__"
-    home = Path(_APPDIRS.user_cache_dir("colonnade", False))
-    if home.is_absolute():  # not so without a home
-        yield home
-
-
 def _hash_of_sources() -> str:
     """Hash the modules with kernels and those from which they import, whose constants are compiled in."""
     sources = {path.relative_to(PACKAGE).as_posix(): path.read_bytes() for path in PACKAGE.rglob("*.py")}
