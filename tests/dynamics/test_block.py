@@ -94,14 +94,6 @@ def test_a_pole_distance_in_millimetres_is_refused():
         Block.measured(mass=80, pole_distance=610, critical_angle=0.21, inertia=41.2)
 
 
-def test_a_block_says_what_rocking_depends_on():
-    said = repr(Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10))
-    assert said.startswith("<Block: α 0.1864 rad, R 0.232 m, I₀ 1.873 kg m², p 5.631 rad/s, rigid-body e 0.9485,")
-    assert "sides differ" not in said
-    leaning = Block.measured(mass=80.0, pole_distance=0.6, critical_angle=(0.25, 0.19), inertia=41.0)
-    assert repr(leaning).endswith("sides differ>")
-
-
 COLUMNS = {
     "prism": Block.prism(width=0.9, depth=0.7, height=6.0, mass=12000.0),
     "cylinder": Block.cylinder(diameter=1.2, height=6.0, mass=15000.0),

@@ -4,6 +4,7 @@ import re
 from math import inf, nan
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -67,12 +68,9 @@ def test_values_at_the_ends_of_what_is_written(found, said):
 
 
 class Told(text.Digested):
-    def __init__(self, said):
-        self.said = said
-
-    def digest(self):
-        return self.said
+    ESSENCE = "outcome, share, angle rad, mass kg"
+    outcome, share, angle, mass = "rocking", None, np.array([0.1, np.nan, 0.25]), 2.5
 
 
-def test_a_line_names_the_kind_and_the_values():
-    assert repr(Told({"e": "0.97", "method": "peaks"})) == "<Told: e 0.97, method peaks>"
+def test_a_line_names_the_kind_and_the_values_with_their_units():
+    assert repr(Told()) == "<Told: outcome rocking, share –, angle 0.1 to 0.25 rad, mass 2.5 kg>"

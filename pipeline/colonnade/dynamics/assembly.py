@@ -12,7 +12,7 @@ from math import cos
 import numpy as np
 
 from colonnade.dynamics.block import MOST_COLUMNS, Block
-from colonnade.units.text import Digested, written
+from colonnade.units.text import Digested
 from colonnade.validation import described, instance, number, samples, whole
 
 LEVEL = 1e-6
@@ -88,8 +88,8 @@ class Assembly(Digested):
     (['d1', 'd2', 'd3'], 0.6)
     >>> round(column.critical_angles["d1"], 4), round(column.critical_angles["d3"], 4)
     (0.4636, 0.9828)
-    >>> column.gravity, column.levels["d2"], column.digest()["mass"]
-    (9.81, 0.2, '102 kg')
+    >>> column.gravity, column.levels["d2"], column
+    (9.81, 0.2, <Assembly: bodies d1; d2; d3, height 0.6 m, gravity 9.81 m/s²>)
     >>> beam = Block.prism(width=1.0, depth=0.3, height=0.2, mass=150.0)
     >>> list(Assembly.frame(drum, beam, span=0.9).bodies)
     ['left', 'right', 'beam']
@@ -97,6 +97,8 @@ class Assembly(Digested):
     >>> list(row.bodies), row.bodies["beam2"].on
     (['column1', 'column2', 'column3', 'beam1', 'beam2'], ('column2', 'column3'))
     """
+
+    ESSENCE = "bodies, height m, gravity m/s²"
 
     bodies: Mapping[str, Placed]
 
@@ -211,18 +213,6 @@ class Assembly(Digested):
         spacing = number("spacing", spacing, "a positive length in m", above=0.0)
         places = {f"column{i + 1}": (i - 0.5 * (columns - 1)) * spacing for i in range(columns)}
         return cls(_under_beams(column, places, beam, [f"beam{i}" for i in range(1, columns)]))
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return the names, the height, and the mass.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        mass = sum(body.block.mass for body in self.bodies.values())
-        return {"bodies": ", ".join(self.bodies), "height": written(self.height, "m"), "mass": written(mass, "kg")}
 
     @property
     def gravity(self) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.units.text import Digested, written
+from colonnade.units.text import Digested
 from colonnade.validation import instance, number, samples, sided, whole
 
 STANDARD_GRAVITY = 9.81
@@ -111,9 +111,11 @@ class Block(Digested):
     (True, 5.632)
     >>> uneven.p_at([-0.1, 0.1]).round(3).tolist()
     [5.632, 5.632]
-    >>> block.digest()["p"]
-    '5.631 rad/s'
+    >>> Block.cylinder(diameter=0.1, height=0.5, mass=30.0)
+    <Block: critical_angle 0.1974 rad, p 5.378 rad/s, restitution 0.9422, mass 30 kg, is_symmetric True>
     """
+
+    ESSENCE = "critical_angle rad, p rad/s, restitution, mass kg, is_symmetric"
 
     mass: float
     gravity: float
@@ -129,24 +131,6 @@ class Block(Digested):
         if self.solid is not None:
             instance("solid", self.solid, Solid)
         number("beam_ratio", self.beam_ratio, "a share of the mass of the columns from 0 on", low=0.0, high=LARGEST)
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return α, R, I₀, p and rigid-body e of the governing side, and the mass.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        return {
-            "α": written(self.critical_angle, "rad"),
-            "R": written(self.pole_distance, "m"),
-            "I₀": written(self.inertia, "kg m²"),
-            "p": written(self.p, "rad/s"),
-            "rigid-body e": written(self.restitution),
-            "mass": written(self.mass, "kg"),
-        } | ({} if self.is_symmetric else {"sides": "differ"})
 
     @property
     def sides(self) -> tuple[Side, Side]:

@@ -26,7 +26,7 @@ from colonnade.dynamics.uncertainty import (
     member_block,
     member_restitution,
 )
-from colonnade.units.text import Digested, written
+from colonnade.units.text import Digested
 from colonnade.validation import instance, number, whole
 
 if TYPE_CHECKING:
@@ -86,9 +86,11 @@ class Ensemble(Digested):
     >>> found = colonnade.ensemble(block, motion, restitution=0.95, uncertainty=inputs, count=50)
     >>> found.overturning_probability, found.horizon(0.5 * block.critical_angle)
     (0.0, 2.995)
-    >>> list(found.digest())
-    ['members', 'overturned', 'duration']
+    >>> found
+    <Ensemble: overturning_probability 0, peak_ratio 0.119 to 0.135, time 0 to 3 s>
     """
+
+    ESSENCE = "overturning_probability, peak_ratio, time s"
 
     time: Array
     central: Array
@@ -99,21 +101,6 @@ class Ensemble(Digested):
     overturning_time: Array
     histories: Histories
     names: tuple[str, ...] = INPUTS
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return the number of members, the share that overturns and the duration.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        return {
-            "members": str(self.overturning_time.size),
-            "overturned": written(100 * self.overturning_probability, "%", 3),
-            "duration": written(float(self.time[-1] - self.time[0]), "s"),
-        }
 
     def horizon(self, width: float) -> float:
         """

@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.models import DEFAULT, MODELS
-from colonnade.units.text import Digested, written
+from colonnade.units.text import Digested
 
 Outcome = Literal["no-rocking", "rocking", "overturned"]
 
@@ -44,9 +44,11 @@ class History(Digested):
     ('rocking', 0.5, 0.0, 28)
     >>> float(history.amplitude[0]), float(history.energy[0])
     (0.5, 0.75)
-    >>> history.digest()["duration"]
-    '5 s'
+    >>> history
+    <History: outcome rocking, peak_ratio 0.5, overturning_time –, impacts 28, model linear>
     """
+
+    ESSENCE = "outcome, peak_ratio, overturning_time s, impacts, model"
 
     block: Block
     time: Array
@@ -57,25 +59,6 @@ class History(Digested):
     rebound_velocities: Array
     overturning_time: float
     model: str = DEFAULT
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return outcome, largest angle, impacts, duration and model.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        fell = np.isfinite(self.overturning_time)
-        name, size = ("at", written(self.overturning_time, "s")) if fell else ("max |θ|/α", written(self.peak_ratio))
-        return {
-            "outcome": self.outcome,
-            name: size,
-            "impacts": str(self.impacts),
-            "duration": written(float(self.time[-1] - self.time[0]), "s"),
-            "model": self.model,
-        }
 
     @property
     def amplitude(self) -> Array:

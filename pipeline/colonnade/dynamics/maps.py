@@ -197,8 +197,8 @@ class StabilityMap(OverFrequency):
     >>> chart = colonnade.stability_map(block, frequency_ratio=[2.0, 4.0], amplitude_ratio=[0.5, 2.0, 4.0])
     >>> chart.no_rocking.round(2).tolist(), chart.islands.shape[1]
     ([0.99, 0.99], 3)
-    >>> chart.digest()["Ω"]
-    '2 to 4 in 2'
+    >>> chart
+    <StabilityMap: frequency_ratio 2 to 4, lower 1.02 to 1.69, upper 1.02 to 2.82>
     """
 
     amplitude_ratio: Array

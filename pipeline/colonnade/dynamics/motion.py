@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.units.text import Digested, written
+from colonnade.units.text import Digested
 from colonnade.validation import number, samples
 
 MOST_SAMPLES = 10_000_000
@@ -39,9 +39,11 @@ class Motion(Digested):
     >>> motion = Motion([0.0, 2.0, -1.0], 0.01)
     >>> motion.time.tolist(), motion.duration, motion.peak
     ([0.0, 0.01, 0.02], 0.02, 2.0)
-    >>> motion.digest()["components"]
-    'along x'
+    >>> motion
+    <Motion: duration 0.02 s, dt 0.01 s, peak 2 m/s²>
     """
+
+    ESSENCE = "duration s, dt s, peak m/s²"
 
     def __init__(
         self,
@@ -60,23 +62,6 @@ class Motion(Digested):
                     f"{name} has {along.size} samples; {self.acceleration.size} were expected, as many as the "
                     "acceleration along x"
                 )
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return duration, sampling interval, largest acceleration and components.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        others = [name for name in ("vertical", "transverse") if getattr(self, name) is not None]
-        return {
-            "duration": written(self.duration, "s"),
-            "interval": written(self.dt, "s"),
-            "max |a|": written(self.peak, "m/s²"),
-            "components": ", ".join(["along x", *others]),
-        }
 
     @property
     def time(self) -> Array:

@@ -167,8 +167,8 @@ class OverturningSpectrum(OverFrequency):
     >>> limits = colonnade.overturning_spectrum(block, "half-sine", frequency_ratio=[2.0, 4.0])
     >>> limits.lower.round(2).tolist(), limits.islands.shape
     ([1.78, 2.76], (0, 3))
-    >>> limits.digest()["lower limit"]
-    'A = 1.78 to 2.76'
+    >>> limits
+    <OverturningSpectrum: frequency_ratio 2 to 4, lower 1.78 to 2.76, upper 1.78 to 2.76>
     """
 
     pulse: str

@@ -144,6 +144,8 @@ class OverFrequency(Digested):
         All that the limits depend on.
     """
 
+    ESSENCE = "frequency_ratio, lower, upper"
+
     frequency_ratio: Array
     lower: Array
     upper: Array
@@ -157,22 +159,6 @@ class OverFrequency(Digested):
         """Overturning intervals narrower than `width`: rows of Ω, start and end in A, shape (k, 3)."""
         rows = np.column_stack([self.interval_frequency_ratio, self.interval_start, self.interval_end])
         return np.asarray(rows[self.interval_end - self.interval_start < self.options["width"]])
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return what it is of, and the range of Ω and of the lower limit.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values, as a notebook shows them.
-        """
-        known, omegas = self.lower[np.isfinite(self.lower)], self.frequency_ratio
-        return {
-            "model": str(self.options["model"]),
-            "Ω": f"{omegas[0]:.3g} to {omegas[-1]:.3g} in {omegas.size}",
-            "lower limit": f"A = {known.min():.3g} to {known.max():.3g}" if known.size else "above the largest A",
-        }
 
 
 def over_frequency(frequency_ratio: Array, limits: Sequence[Limits]) -> dict[str, Array]:

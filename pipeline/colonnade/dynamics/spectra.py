@@ -48,32 +48,19 @@ class RockingSpectrum(Digested):
     >>> import colonnade
     >>> motion = colonnade.Motion(3.0 * np.sin(np.pi * np.arange(51) / 25), 0.01)
     >>> found = colonnade.rocking_spectrum(motion, critical_angle=[0.2], period=[1.0, 2.0])
-    >>> found.overturned.tolist(), found.digest()["overturned"]
-    ([[True, False]], '1 of 2')
+    >>> found.overturned.tolist()
+    [[True, False]]
+    >>> found
+    <RockingSpectrum: model nonlinear, critical_angle 0.2 to 0.2 rad, period 1 to 2 s, peak_ratio 0.259 to 0.259>
     """
+
+    ESSENCE = "model, critical_angle rad, period s, peak_ratio"
 
     critical_angle: Array
     period: Array
     peak_ratio: Array
     overturned: Mask
     model: str
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return model, axes and how many blocks overturn.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        angles, periods = self.critical_angle, self.period
-        return {
-            "model": self.model,
-            "α": f"{angles.min():.3g} to {angles.max():.3g} rad in {angles.size}",
-            "2π/p": f"{periods.min():.3g} to {periods.max():.3g} s in {periods.size}",
-            "overturned": f"{int(self.overturned.sum())} of {self.overturned.size}",
-        }
 
 
 def rocking_spectrum(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from math import ceil, floor, isfinite, log10, nan
 
@@ -213,12 +212,16 @@ def joined(names: Sequence[str], last: str = "and") -> str:
     return f" {last} ".join([*filter(None, [", ".join(names[:-1])]), *names[-1:]])
 
 
-class Digested(ABC):
-    """A result that gives its essence by `digest`: `repr` shows it in a line, also in a notebook."""
+class Digested:
+    """A result whose `repr` shows what is most worth knowing in a line, also in a notebook."""
 
-    @abstractmethod
+    ESSENCE = ""
+    """Attributes, each with its unit."""
+
     def digest(self) -> Mapping[str, str]:
-        """Return what is most worth knowing, by name, with units."""
+        """Return them by name, with units."""
+        named = [each.partition(" ") for each in self.ESSENCE.split(", ")]
+        return {name: shown(getattr(self, name), unit) for name, _, unit in named}
 
     def __repr__(self) -> str:
         """Write it in a line."""
@@ -226,15 +229,18 @@ class Digested(ABC):
         return f"<{type(self).__name__}: {said}>"
 
 
-def shown(value: object) -> str:
+def shown(value: object, unit: str = "") -> str:
     """
-    Write a value of any kind: four digits of a number, a list in one line.
+    Write a value of any kind: four digits of a number, a list in one line, the range of an array.
 
     Examples
     --------
-    >>> shown(None), shown(0.123456), shown([1, 2.5]), shown(True)
-    ('–', '0.1235', '1; 2.5', 'True')
+    >>> shown(None), shown(0.123456, "s"), shown([1, 2.5]), shown(True)
+    ('–', '0.1235 s', '1; 2.5', 'True')
     """
-    if isinstance(value, (list, tuple)):
-        return "; ".join(map(shown, value))
-    return number(value, 4) if value is None or isinstance(value, float) else str(value)
+    if value is None or isinstance(value, float):
+        return written(value, unit)
+    if hasattr(value, "flat"):
+        known = [float(each) for each in value.flat if isfinite(each)]
+        return f"{number(min(known, default=nan))} to {written(max(known, default=nan), unit, 3)}"
+    return "; ".join(map(shown, value)) if isinstance(value, (list, tuple, Mapping)) else str(value)

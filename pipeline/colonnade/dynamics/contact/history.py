@@ -14,7 +14,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody, ContactLaw, rotation_matrices
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History, Outcome
 from colonnade.dynamics.models import CONTACT
-from colonnade.units.text import PERCENT, Digested, written
+from colonnade.units.text import PERCENT, Digested
 from colonnade.validation import instance, number
 
 Whole = NDArray[np.intp]
@@ -263,13 +263,15 @@ class AssemblyHistory(Together, Digested):
     (0.05, 0.0)
     >>> round(float(history.angle[0]), 4)
     0.05
-    >>> history.digest()["outcome"], history.overturning_time, history.peak_ratio < 0.2, list(history.residuals)
-    ('rocking', nan, True, ['low', 'high'])
+    >>> history.overturning_time, history.peak_ratio < 0.2, list(history.residuals)
+    (nan, True, ['low', 'high'])
     >>> history.outlines()["low"].shape == (history.time.size, 4, 2), round(history.horizon(history), 3)
     (True, 0.1)
     >>> history.impact_times.size
     0
     """
+
+    ESSENCE = "outcome, overturned_bodies, peak_ratio, overturning_time s"
 
     assembly: Assembly
     bodies: Mapping[str, BodyHistory]
@@ -359,23 +361,3 @@ class AssemblyHistory(Together, Digested):
         for name, body in self.bodies.items():
             apart |= np.abs(body.lean - other.bodies[name].lean) > share
         return float(self.time[np.argmax(apart)] if apart.any() else self.time[-1])
-
-    def digest(self) -> dict[str, str]:
-        """
-        Return outcome, what overturned or the largest lean, and the largest residual displacement.
-
-        Returns
-        -------
-        digest : dict of str to str
-            Names and values with their units, as a notebook shows them.
-        """
-        fallen = ", ".join(self.overturned_bodies)
-        name, text = ("overturned", fallen) if fallen else ("max lean/α", written(self.peak_ratio))
-        moved = max(float(np.hypot(x, y)) for x, y, _ in self.residuals.values())
-        return {
-            "outcome": self.outcome,
-            name: text,
-            "largest residual displacement": written(moved, "m"),
-            "duration": written(float(self.time[-1] - self.time[0]), "s"),
-            "model": "contact",
-        }
