@@ -106,13 +106,13 @@ def contact(specimen: Dataset, inputs: ContactInputs) -> Dataset:
             "friction": law.friction,
             "effective_damping": law.effective_damping(body),
             "node_mass": ("node", body.node_mass),
-            "node_weight": ("node", law.node_weights(body, inputs.block.gravity)),
+            "node_weight": ("node", body.mass * inputs.block.gravity * body.node_area / body.node_area.sum()),
             "ring_radius": ("node", body.ring_radii),
         },
         attrs={
             "body": body.description,
             "contact_restitution_source": found.source,
-            "warnings": [] if given or found.agrees else [warning("contact law", found.reason)],
+            "warnings": [] if given or not found.reason else [warning("contact law", found.reason)],
         },
     )
 

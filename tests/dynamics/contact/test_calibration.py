@@ -19,8 +19,9 @@ def calibrated():
 
 
 def test_the_law_gives_the_restitution_in_a_run_of_its_own(calibrated):
-    assert calibrated.agrees
     assert calibrated.reason == ""
+    assert 0.1 < calibrated.history.law.damping_fraction < 0.4
+    assert calibrated.history.energies.relative_residual < 0.01
     history = simulate(BODY, law=calibrated.history.law, theta0=0.5 * PRISM.critical_angle, duration=2.5, step=STEP)
     assert free_restitution(history, impacts=4) == pytest.approx(0.976, abs=TOLERANCE)
     # Energies of the peaks, Housner's relation, tell the same as velocities at impacts.
@@ -32,17 +33,9 @@ def test_the_law_gives_the_restitution_in_a_run_of_its_own(calibrated):
     assert (energies[3] / energies[0]) ** (1 / 6) == pytest.approx(0.976, abs=1e-3)
 
 
-def test_what_was_tried_is_kept(calibrated):
-    assert calibrated.fractions[:2].tolist() == [0.1, 0.4]
-    assert 0.1 < calibrated.history.law.damping_fraction < 0.4
-    assert (calibrated.restitutions[:2] > 0.976).tolist() == [True, False]
-    assert calibrated.history.energies.relative_residual < 0.01
-
-
 def test_a_restitution_out_of_reach_is_told_with_what_can_be_had():
     found = calibrate(BODY, LAW, 0.90, step=STEP, impacts=2, fractions=(0.4,))
-    assert not found.agrees
-    assert found.restitution == pytest.approx(found.restitutions.min())
+    assert found.restitution > 0.90
     assert "0.9000 was asked for" in found.reason
 
 

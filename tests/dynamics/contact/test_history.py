@@ -19,9 +19,9 @@ def test_speeds_are_carried_to_zero_angle_by_the_equation_of_motion(side, level)
     """A speed taken on the way down, at θ = 0.1 α, becomes the analytical speed at the impact."""
     base = Motion(np.full(4001, level * PRISM.uplift_acceleration), 1e-4)
     history = rock(PRISM, base, model="nonlinear", restitution=0.9, theta0=side * 0.2 * ALPHA)
-    times, before, after = impacts_of(
-        PRISM, history.time, history.angle, history.angular_velocity, base.acceleration, 5e-3
-    )
+    sunk = 9.81 * (5e-3 / np.pi) ** 2
+    found = impacts_of(PRISM, history.time, history.angle, history.angular_velocity, base.acceleration, sunk)
+    times, before, after = found.values()
     assert times[0] == pytest.approx(history.impact_times[0], abs=1e-5)
     assert before[0] == pytest.approx(history.impact_velocities[0], rel=1e-6)
     assert after[0] == pytest.approx(history.rebound_velocities[0], rel=1e-6)

@@ -252,11 +252,6 @@ class ContactLaw:
         """Normal damping 2 ξ sqrt(m k) of each base node, N s/m, shape (n,)."""
         return np.asarray(2.0 * self.damping_fraction * np.sqrt(body.node_mass * self.node_stiffness(body)))
 
-    def node_weights(self, body: ContactBody, gravity: float) -> Array:
-        """What each base node bears of the standing body's weight, N, shape (n,)."""
-        stiffness = self.node_stiffness(body)
-        return np.asarray(body.mass * gravity * stiffness / stiffness.sum())
-
     def effective_damping(self, body: ContactBody) -> float:
         """
         Damping fraction ξ_eff of the whole body that bounces on all its nodes, Σc / (2 sqrt(M Σk)).
@@ -297,16 +292,8 @@ class InSpace:
     @property
     def options(self) -> dict[str, Any]:
         """What a run depends on beside its motion, by name."""
-        if isinstance(self.body, Assembly):
-            return {"bodies": repr(self.body), **asdict(self.law)}
-        return {
-            "body": self.body.description,
-            "contact_stiffness": self.law.node_stiffness(self.body).sum() / self.body.node_area.sum(),
-            "damping_fraction": self.law.damping_fraction,
-            "effective_damping": self.law.effective_damping(self.body),
-            "friction": self.law.friction,
-            "contact_step": self.step,
-        }
+        body = repr(self.body.bodies) if isinstance(self.body, Assembly) else self.body.description
+        return {"body": body, **asdict(self.law), "contact_step": self.step}
 
     def run(self, motion: Motion, gravity: float, **tilts: Unpack[Tilts]) -> ContactHistory | AssemblyHistory:
         """Run a base motion, as `simulate` or `simulate_assembly`; gravity (m/s²) is that of a single body."""

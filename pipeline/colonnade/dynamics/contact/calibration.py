@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import acosh, ceil, exp, isnan, log, nan
+from math import acosh, ceil, exp, log, nan
 
 import numpy as np
 import scipy
 
-from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody, ContactLaw
 from colonnade.dynamics.contact.history import ContactHistory
@@ -56,36 +55,15 @@ class Calibration:
     source : str
         What that restitution is: `VELOCITY_RATIO`, or as `identify` calls it.
     target : float
-    fractions, stiffnesses, restitutions : ndarray, shape (k,)
-        All that was tried, in its order (ξ; in multiples of the stiffness of the law asked for), and what it gave.
+    reason : str
+        Why it does not agree with the target, to `TOLERANCE`; empty if it does.
     """
 
     history: ContactHistory
     restitution: float
     source: str
     target: float
-    fractions: Array
-    stiffnesses: Array
-    restitutions: Array
-
-    @property
-    def agrees(self) -> bool:
-        """Whether the restitution is the one asked for, to `TOLERANCE`."""
-        return abs(self.restitution - self.target) <= TOLERANCE
-
-    @property
-    def reason(self) -> str:
-        """Why it does not agree; empty if it does."""
-        if self.agrees:
-            return ""
-        return (
-            f"The contact of this body ({self.history.body.description}) gives e from "
-            f"{np.nanmin(self.restitutions):.4f} to {np.nanmax(self.restitutions):.4f} for critical damping fractions "
-            f"from {self.fractions.min():g} to {self.fractions.max():g} and {self.stiffnesses.min():g} to "
-            f"{self.stiffnesses.max():g} times its stiffness; {self.target:.4f} was asked for. The nearest is used: "
-            f"e = {self.restitution:.4f} at "
-            f"{self.history.law.damping_fraction:.4g}. More nodes give a larger e, fewer a smaller one."
-        )
+    reason: str
 
 
 def free_restitution(history: ContactHistory, *, impacts: int = IMPACTS) -> float:
@@ -174,6 +152,29 @@ def calibrate(
             found[stiffness, fraction] = *identify(history), history
         return found[stiffness, fraction][0]
 
+    _search(run, fractions, restitution)
+    tried = np.array([(*pair, value) for pair, (value, _, _) in found.items()])
+    missing = np.abs(tried[:, 2] - restitution)
+    if np.isnan(missing).all():
+        raise ValueError(
+            f"No free vibration of this body ({body.description}) gave a restitution; a block that rocks was expected"
+        )
+    value, source, history = list(found.values())[int(np.nanargmin(missing))]
+    reason = ""
+    if abs(value - restitution) > TOLERANCE:
+        (softest, least, lowest), (stiffest, most, highest) = np.nanmin(tried, axis=0), np.nanmax(tried, axis=0)
+        reason = (
+            f"The contact of this body ({history.body.description}) gives e from {lowest:.4f} to {highest:.4f} for "
+            f"critical damping fractions from {least:g} to {most:g} and {softest:g} to {stiffest:g} times its "
+            f"stiffness; {restitution:.4f} was asked for. The nearest is used: e = {value:.4f} at "
+            f"{history.law.damping_fraction:.4g}. More nodes give a larger e, fewer a smaller one."
+        )
+    return Calibration(history, value, source, restitution, reason)
+
+
+def _search(run: Callable[[float, float], float], fractions: Sequence[float], restitution: float) -> None:
+    """Run multiples of the stiffness and damping fractions, which give e or NaN, until one gives the restitution."""
+
     def misfit(fraction: float, stiffness: float) -> float:
         """Give how far e is from the target; 0, a root, within the tolerance."""
         missing = run(stiffness, fraction) - restitution
@@ -190,20 +191,11 @@ def calibrate(
     def may_reach(stiffness: float) -> bool:
         """Say by three runs whether a stiffness can give e, which is least at one of the last two fractions."""
         ends = [run(stiffness, fraction) for fraction in (*fractions[:1], *fractions[-2:])]
-        known = [value for value in ends if not isnan(value)]
-        return min(known, default=nan) <= restitution <= max(known, default=nan)
+        return bool(np.fmin.reduce(ends) <= restitution <= np.fmax.reduce(ends))
 
     run(1.0, fractions[0])
     if len(fractions) > 1 and not reach(1.0):
         any(may_reach(each) and reach(each) for each in STIFFNESSES)
-    values = np.array([value for value, _, _ in found.values()])
-    if not np.isfinite(values).any():
-        raise ValueError(
-            f"No free vibration of this body ({body.description}) gave a restitution; a block that rocks was expected"
-        )
-    value, source, history = list(found.values())[int(np.nanargmin(np.abs(values - restitution)))]
-    stiffnesses, tried = np.array(list(found)).T
-    return Calibration(history, value, source, restitution, tried, stiffnesses, values)
 
 
 def _duration(restitution: float, impacts: int) -> float:

@@ -102,10 +102,8 @@ def simulate(
     orbit = np.cross(-_poles(body, matrices, own.angle), own.velocity)[:, 1]
     about = (spin + body.mass * orbit) / block.inertia
     base = np.zeros(own.angle.size) if motion is None else motion.acceleration
-    # An impact is given half a period of the body that bounces on all its nodes.
-    lasts = np.pi * float(np.sqrt(body.mass / together.law.node_stiffness(body).sum()))
-    found = impacts_of(block, together.time, own.angle, about, base, lasts)
-    impacts = dict(zip(("impact_times", "impact_velocities", "rebound_velocities"), found, strict=True))
+    sunk = body.mass * gravity / float(together.law.node_stiffness(body).sum())
+    impacts = impacts_of(block, together.time, own.angle, about, base, sunk)
     # One that lies has its angle there.
     lies = np.abs(own.angle) >= 0.5 * np.pi
     lying = {"angle": np.clip(own.angle, -0.5 * np.pi, 0.5 * np.pi), "angular_velocity": np.where(lies, 0.0, speed)}
