@@ -170,10 +170,10 @@ def refusals() -> Iterator[None]:
 @lru_cache(maxsize=4)
 def _whole_body(inputs: ContactInputs) -> ContactBody:
     """Build the body with all its modes; meshing takes its time, so the last few are kept."""
-    settings, sizes = inputs.settings, dict(inputs.sizes)
+    settings, solid = inputs.settings, inputs.block.solid
     if settings.mesh == "rigid":
         return rigid_body(inputs.block)
-    if not sizes:
+    if solid is None:
         raise StageError(
             f"processing.predict.contact.mesh is {settings.mesh}, but this specimen is of shape "
             f'"{inputs.shape}" and has no dimensions to mesh. A prism, a cylinder or a cone was expected.'
@@ -181,7 +181,7 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
     from colonnade.dynamics.contact.elastic import elastic_body
 
     return elastic_body(
-        sizes,
+        solid,
         inputs.block.mass,
         degrees_of_freedom=settings.mesh,
         modulus=settings.modulus,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
+from colonnade.dynamics.block import Solid
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.mesh import Mesh, mesh_of, refine_rim
 
@@ -199,18 +199,17 @@ def modal_damping(body: ElasticBody, modes: Array, frequencies: Array) -> Array:
     return np.asarray(((body.viscosity @ modes) ** 2).sum(axis=0) / (2 * frequencies))
 
 
-def elastic_body(
-    sizes: Mapping[str, float], mass: float, *, degrees_of_freedom: int, **elasticity: float
-) -> ContactBody:
+def elastic_body(solid: Solid, mass: float, *, degrees_of_freedom: int, **elasticity: float) -> ContactBody:
     """
-    Build the reduced elastic body of given dimensions and mass.
+    Build the reduced elastic body of a shape and a mass.
 
     Parameters
     ----------
-    sizes, degrees_of_freedom
-        As of `mesh_of`.
+    solid : Solid
     mass : float
         kg.
+    degrees_of_freedom : int
+        Of the mesh, about; three a node.
     **elasticity : float, optional
         `modulus` and `poisson_ratio`, as of `assemble`.
 
@@ -218,12 +217,7 @@ def elastic_body(
     -------
     body : ContactBody
         With all its modes; `keep_modes_for_step` leaves those that a step can follow.
-
-    Raises
-    ------
-    ValueError
-        If the dimensions are those of no known shape.
     """
-    mesh, description = mesh_of(sizes, degrees_of_freedom)
+    mesh, description = mesh_of(solid, degrees_of_freedom)
     body = reduce_body(assemble(mesh, mass, description, **elasticity))
-    return body if "width" in sizes else refine_rim(body)
+    return body if solid.base == "rectangle" else refine_rim(body)

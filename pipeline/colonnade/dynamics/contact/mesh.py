@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from math import ceil, pi
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
+from colonnade.dynamics.block import Solid
 from colonnade.dynamics.contact.body import ContactBody
 
 Whole = NDArray[np.int64]
@@ -31,29 +31,19 @@ CORE_BULGE = 0.5
 """How far the sides of the core are bent towards a circle: 0 not at all, 1 wholly."""
 
 
-def mesh_of(sizes: Mapping[str, float], degrees_of_freedom: int) -> tuple[Mesh, str]:
-    """
-    Mesh a body by its outer dimensions, m, with about so many degrees of freedom, three a node, and describe the mesh.
-
-    Of a prism they are "width", "depth", "height", of a cylinder "diameter", "height", of a truncated cone
-    "base_diameter", "top_diameter", "height".
-    """
+def mesh_of(solid: Solid, degrees_of_freedom: int) -> tuple[Mesh, str]:
+    """Mesh a body with about so many degrees of freedom, three a node, and describe the mesh."""
     nodes = degrees_of_freedom / 3
     # What a section may be divided into.
     first, second = np.array(
         [(1, 1)] + [(i, j) for i in range(1, ceil(nodes / 4)) for j in range(1, ceil(nodes / (2 * (i + 1))))]
     ).T
-    if sizes.keys() == {"width", "depth", "height"}:
-        lengths = sizes["width"], sizes["depth"], sizes["height"]
+    if solid.base == "rectangle":
+        lengths = 2 * solid.top[0], 2 * solid.half_depth, solid.height
         edges = [lengths[0] / first, lengths[1] / second]
         x, y, layers = _nearest(first, second, (first + 1) * (second + 1), edges, nodes, lengths[2], PRISM_ASPECT)
         return prism_mesh(*lengths, (x, y, layers)), f"prism of {x} × {y} × {layers} bricks"
-    if sizes.keys() == {"diameter", "height"}:
-        lengths = sizes["diameter"], sizes["diameter"], sizes["height"]
-    elif sizes.keys() == {"base_diameter", "top_diameter", "height"}:
-        lengths = sizes["base_diameter"], sizes["top_diameter"], sizes["height"]
-    else:
-        raise ValueError(f"The dimensions are {', '.join(sizes)}; those of a prism, a cylinder or a cone were expected")
+    lengths = 2 * solid.half_depth, 2 * solid.top[0], solid.height
     # No more rings than bricks along the core; edges at half height.
     first, second = first[second <= first], second[second <= first]
     radius = (lengths[0] + lengths[1]) / 4
