@@ -106,7 +106,7 @@ def _huge_steps(rng, block, model):
     level = rng.normal(size=4) * _threshold(block, model) * 3
     _sound(rock(block, Motion(level, step), model=model, restitution=e))
     too_long = rng.uniform(301, 1e6) / block.p
-    _refused("a sampling interval below", block=block, motion=Motion(level, too_long), model=model)
+    _refused("Check their units.", block=block, motion=Motion(level, too_long), model=model)
 
 
 def _released_beyond(rng, block, model):
@@ -141,7 +141,7 @@ def _extremes(rng, block, model):
     _sound(history)
     if np.abs(level).max() < _threshold(block, model):
         assert (history.angle == 0.0).all()
-    _refused("Check its unit.", block=block, motion=Motion([0.0, 2e6 * block.gravity], dt), model=model)
+    _refused("Check their units.", block=block, motion=Motion([0.0, 2e6 * block.gravity], dt), model=model)
     tiny = rock(block, model=model, theta0=10 ** rng.uniform(-300, -12), duration=1 / block.p)
     assert tiny.outcome == "no-rocking"
     _sound(rock(block, model=model, omega0=rng.normal() * 1e5 * block.p, duration=1 / block.p))

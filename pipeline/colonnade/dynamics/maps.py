@@ -153,10 +153,11 @@ def runs_of(plan: MapPlan, motion: Harmonic) -> Runs:
         return partial(outcomes_of, block=block, forcing=forcing, restitution=plan.restitution, model=plan.model)
     unit, dt = motion.sampled(block.uplift_acceleration)
 
-    def outcome(amplitude: float) -> int:
-        return OUTCOMES.index(space.run(Motion(unit * amplitude, dt), block.gravity).outcome)
+    def outcomes(amplitudes: Array) -> Codes:
+        found = [space.run(Motion(unit * amplitude, dt), block.gravity).outcome for amplitude in amplitudes]
+        return np.array([OUTCOMES.index(outcome) for outcome in found], dtype=np.int8)
 
-    return lambda amplitudes: np.array([outcome(amplitude) for amplitude in amplitudes], dtype=np.int8)
+    return outcomes
 
 
 def _fraction(amplitudes: Array, intervals: Array) -> Array:

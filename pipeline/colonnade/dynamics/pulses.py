@@ -149,7 +149,7 @@ class OverturningSpectrum(OverFrequency):
 
     Attributes
     ----------
-    pulse, model : str
+    pulse : str
     frequency_ratio : ndarray, shape (n,)
         Ω = ω / p.
     lower, upper : ndarray, shape (n,)
@@ -158,7 +158,7 @@ class OverturningSpectrum(OverFrequency):
     interval_frequency_ratio, interval_start, interval_end : ndarray, shape (k,)
         Every interval of A that overturns, islands included, by its Ω.
     options : dict
-        What the limits depend on: restitution, γ and ν, largest A, width, edge, rest rule.
+        What the limits depend on: model, restitution, γ and ν, largest A, width, edge, rest rule.
 
     Examples
     --------
@@ -172,7 +172,6 @@ class OverturningSpectrum(OverFrequency):
     """
 
     pulse: str
-    model: str
 
 
 def overturning_spectrum(
@@ -257,5 +256,4 @@ def overturning_spectrum(
         **over_frequency(omegas, limits),
         options={"model": model, **ends, **shaped, **searched},
         pulse=pulse,
-        model=model,
     )

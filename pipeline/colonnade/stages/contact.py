@@ -98,7 +98,7 @@ def contact(specimen: Dataset, inputs: ContactInputs) -> Dataset:
         {
             "contact_restitution": found.restitution,
             "contact_velocity_ratio": free_restitution(history),
-            "restitution": found.target,
+            "restitution": float(specimen["restitution"]),
             "contact_step": history.step,
             "energy_residual": history.energies.relative_residual,
             "contact_stiffness": law.stiffness,

@@ -117,13 +117,11 @@ ELASTIC = assemble(prism_mesh(0.086, 0.086, 0.456, (2, 2, 6)), 26.10)
 
 def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body():
     reduced = reduce_body(ELASTIC)
-    limit = 2 / 1e-5
-    low = keep_modes(reduced, limit)
-    assert 0 < low.frequencies.size < reduced.frequencies.size
-    assert low.frequencies.max() <= limit
-    assert low.modes == pytest.approx(reduced.modes[:, :, : low.frequencies.size])
-    assert keep_modes(reduced, np.inf) is reduced
-    rigid = keep_modes(reduced, 1.0)
+    low = keep_modes(reduced, 5)
+    assert low.frequencies == pytest.approx(reduced.frequencies[:5])
+    assert low.modes == pytest.approx(reduced.modes[:, :, :5])
+    assert keep_modes(reduced, reduced.frequencies.size) is reduced
+    rigid = keep_modes(reduced, 0)
     assert rigid.frequencies.size == 0
     assert rigid.nodes == pytest.approx(ELASTIC.points[ELASTIC.base])
 
@@ -135,7 +133,7 @@ def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_cl
     count = kept.frequencies.size
     assert count >= 4
     assert longest_step(_on(law, kept)) >= 1e-5 / FOLLOWED
-    assert longest_step(_on(law, keep_modes(reduced, reduced.frequencies[count + 1]))) < 1e-5 / FOLLOWED
+    assert longest_step(_on(law, keep_modes(reduced, count + 2))) < 1e-5 / FOLLOWED
     history = simulate(kept, law=law, theta0=0.05, duration=0.3, step=1e-5)
     assert history.impact_times.size == 1
     assert history.energies.relative_residual < 0.01

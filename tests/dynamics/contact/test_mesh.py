@@ -104,7 +104,7 @@ def test_modes_are_linear_between_the_nodes_of_the_mesh(meshed):
 
 def test_an_elastic_cylinder_stays_in_its_plane_as_its_rim_gets_nodes(meshed):
     """Released with a rotation about x of 0.25 % of α, which stays what it is on a whole rim."""
-    elastic = keep_modes(meshed, meshed.frequencies[6])
+    elastic = keep_modes(meshed, 7)
     law = ContactLaw(penetration=1e-6).bearing(meshed, GRAVITY)
     largest = []
     for body in (elastic, refine_rim(elastic, 72), refine_rim(elastic)):

@@ -54,15 +54,13 @@ class Calibration:
         Of this, by `identify`.
     source : str
         What that restitution is: `VELOCITY_RATIO`, or as `identify` calls it.
-    target : float
     reason : str
-        Why it does not agree with the target, to `TOLERANCE`; empty if it does.
+        Why it does not agree with the one asked for, to `TOLERANCE`; empty if it does.
     """
 
     history: ContactHistory
     restitution: float
     source: str
-    target: float
     reason: str
 
 
@@ -169,7 +167,7 @@ def calibrate(
             f"stiffness; {restitution:.4f} was asked for. The nearest is used: e = {value:.4f} at "
             f"{history.law.damping_fraction:.4g}. More nodes give a larger e, fewer a smaller one."
         )
-    return Calibration(history, value, source, restitution, reason)
+    return Calibration(history, value, source, reason)
 
 
 def _search(run: Callable[[float, float], float], fractions: Sequence[float], restitution: float) -> None:

@@ -70,19 +70,17 @@ FOLLOWED = 0.25
 """Of the longest stable step of a mode: a step that is longer does not follow it, and the energy balance suffers."""
 
 
-def keep_modes(body: ContactBody, highest_frequency: float) -> ContactBody:
-    """
-    Leave out the modes above a frequency, rad/s; the low ones stay as accurate as they are, the base becomes stiffer.
-    """
-    kept = int(np.searchsorted(body.frequencies, highest_frequency, side="right"))
-    if kept == body.frequencies.size:
+def keep_modes(body: ContactBody, count: int) -> ContactBody:
+    """Leave out all but the lowest modes, which stay as accurate as they are; the base becomes stiffer."""
+    if count == body.frequencies.size:
         return body
+    kept = f"{count} up to {body.frequencies[count - 1]:.4g} rad/s" if count else "none"
     return replace(
         body,
-        modes=body.modes[:, :, :kept],
-        frequencies=body.frequencies[:kept],
-        modal_damping=body.modal_damping[:kept],
-        description=f"{body.description}, of which {f'{kept} up to {highest_frequency:.4g} rad/s' if kept else 'none'}",
+        modes=body.modes[:, :, :count],
+        frequencies=body.frequencies[:count],
+        modal_damping=body.modal_damping[:count],
+        description=f"{body.description}, of which {kept}",
     )
 
 
@@ -105,9 +103,8 @@ def keep_modes_for_step(body: ContactBody, law: ContactLaw, step: float) -> Cont
         With the modes that the step follows (`FOLLOWED`); the rigid body where it follows none.
     """
 
-    def outruns(highest: float) -> bool:
-        """Whether the step is too long for the modes up to a frequency."""
-        return longest_step(Structure.of_body(keep_modes(body, highest), law, STANDARD_GRAVITY)) < step / FOLLOWED
+    def outruns(count: int) -> bool:
+        """Whether the step is too long for so many modes."""
+        return longest_step(Structure.of_body(keep_modes(body, count), law, STANDARD_GRAVITY)) < step / FOLLOWED
 
-    count = bisect_left(body.frequencies, True, key=outruns)
-    return keep_modes(body, float(body.frequencies[count - 1]) if count else 0.0)
+    return keep_modes(body, bisect_left(range(1, body.frequencies.size + 1), True, key=outruns))

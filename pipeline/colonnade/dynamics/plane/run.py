@@ -96,15 +96,11 @@ def expect_usable(block: Block, motion: Motion) -> None:
         faster than the block.
     """
     fastest = max(block.side_p(block.negative), block.side_p(block.positive))
-    if not motion.peak <= LARGEST_ACCELERATION * block.gravity:
+    if not (motion.peak <= LARGEST_ACCELERATION * block.gravity and fastest * motion.dt <= LONGEST_SAMPLE):
         raise ValueError(
-            f"The acceleration is {motion.peak:.4g} m/s² at sample {int(np.abs(motion.acceleration).argmax())}; "
-            f"at most {LARGEST_ACCELERATION:g} g was expected. Check its unit."
-        )
-    if fastest * motion.dt > LONGEST_SAMPLE:
-        raise ValueError(
-            f"dt is {motion.dt} s, {fastest * motion.dt:.4g}/p; a sampling interval below {LONGEST_SAMPLE:g}/p "
-            f"({LONGEST_SAMPLE / fastest:.4g} s) was expected"
+            f"The acceleration is {motion.peak:.4g} m/s² at sample {int(np.abs(motion.acceleration).argmax())}, and dt "
+            f"is {motion.dt:g} s; at most {LARGEST_ACCELERATION:g} g and {LONGEST_SAMPLE:g}/p "
+            f"({LONGEST_SAMPLE / fastest:.4g} s) were expected. Check their units."
         )
     if motion.transverse is not None:
         raise ValueError("The plane models take motion along x and z only; a Motion without `transverse` was expected")

@@ -237,7 +237,7 @@ def draw_overturning(axes: Axes, spectrum: OverturningSpectrum) -> None:
     )
     edges, name = np.concatenate([starts, ends]), "edges of the intervals that overturn"
     axes.plot(np.tile(places, 2), edges, ".", markersize=1.2, color=SOFT, zorder=1, gid=name)
-    draw_limits(axes, spectrum, spectrum.model)
+    draw_limits(axes, spectrum, str(spectrum.options["model"]))
     axes.grid(False)
     axes.set_xlim(float(ratios.min()), float(ratios.max()))
     lowest = float(starts.min(initial=1.0))
@@ -249,7 +249,7 @@ def _words_of(spectrum: OverturningSpectrum) -> str:
     options = spectrum.options
     shape = f", γ = {options['cycles']:g}, ν = {options['phase']:.3g} rad" if "cycles" in options else ""
     wide = f"limits at least {options['width']:.2g} wide"
-    return f"{spectrum.pulse}{shape}; {spectrum.model} model; {words_of_restitution(options)}; {wide}"
+    return f"{spectrum.pulse}{shape}; {options['model']} model; {words_of_restitution(options)}; {wide}"
 
 
 CURVES: tuple[LineStyle, ...] = (
