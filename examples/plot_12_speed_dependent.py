@@ -11,7 +11,7 @@ import numpy as np
 import colonnade
 
 block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-law = colonnade.RestitutionLaw.table([0.0, 0.2, 1.0], [0.98, 0.96, 0.90])  # rad/s, e
+law = colonnade.RestitutionLaw([0.0, 0.2, 1.0], [0.98, 0.96, 0.90])  # rad/s, e
 at_rest = colonnade.Motion(np.zeros(1500), dt=0.004)
 free = colonnade.rock(block, at_rest, restitution=law, model="nonlinear", theta0=0.7 * block.critical_angle)
 measured = free.angle + np.random.default_rng(1).normal(0.0, 2e-4, free.time.size)

@@ -15,7 +15,7 @@ from prism import PRISM
 TIME = np.arange(0.0, 4.0, 0.01)
 MOTION = colonnade.Motion(3.0 * np.sin(10.0 * TIME), 0.01)
 HISTORY = colonnade.rock(PRISM, MOTION)
-LAW = colonnade.RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
+LAW = colonnade.RestitutionLaw([0.0, 1.0], [1.0, 0.9])
 SURE = colonnade.Uncertainty()
 ENSEMBLE = colonnade.ensemble(PRISM, MOTION, uncertainty=SURE, count=2)
 ASKED = {"block": PRISM, "motions": [MOTION, MOTION], "measure": "pga", "measures": ["pga"]}
@@ -180,7 +180,6 @@ CALLS = {
     "Block.side_p": Call(PRISM.side_p, {"side": PRISM.negative}),
     "Motion": Call(colonnade.Motion, {"acceleration": [0.0, 1.0, 2.0, 0.0], "dt": 0.01}),
     "RestitutionLaw": Call(colonnade.RestitutionLaw, TABLE),
-    "RestitutionLaw.table": Call(colonnade.RestitutionLaw.table, TABLE),
     "RestitutionLaw.__call__": Call(LAW, {"speed": 0.5}),
     "Uncertainty": Call(colonnade.Uncertainty, {"cutoff": 10.0}),
     "ensemble": Call(colonnade.ensemble, {"block": PRISM, "motion": MOTION, "uncertainty": SURE, "count": 1}),

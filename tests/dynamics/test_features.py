@@ -26,14 +26,14 @@ FEATURES = {
     "vertical acceleration": {"vertical": 5.0 * np.sin(np.arange(100) * 0.4)},
     "unequal sides": {"block": LOPSIDED, "level": 2.6, "seed": 2},
     "a pair of restitutions": {"restitution": (0.85, 0.97)},
-    "a law of restitution": {"restitution": RestitutionLaw.table([0.0, 0.2, 0.6], [0.98, 0.9, 0.8])},
+    "a law of restitution": {"restitution": RestitutionLaw([0.0, 0.2, 0.6], [0.98, 0.9, 0.8])},
     "a tilted table": {"level": 1.6, "offset": 0.2},
     "return from beyond the critical angle": {"theta0": 1.1, "omega0": -0.5, "seed": 10},
     "accumulating impacts and uplift from rest again": {"restitution": 0.3, "uplifts": 5},
     "all of it": {
         "block": LOPSIDED, "seed": 2, "level": 2.9, "offset": -0.2, "theta0": -0.4,
         "vertical": 3.0 * np.cos(np.arange(100)),
-        "restitution": RestitutionLaw.table([0.0, 0.5], [0.9, 0.7]),
+        "restitution": RestitutionLaw([0.0, 0.5], [0.9, 0.7]),
     },
 }  # fmt: skip
 

@@ -13,14 +13,14 @@ RELEASED = {"theta0": 0.5 * PRISM.critical_angle, "duration": 3.0}
 
 @pytest.mark.parametrize("model", ["linear", "nonlinear"])
 def test_a_law_that_is_constant_is_the_constant(model):
-    law = RestitutionLaw.table([0.0, 10.0], [0.9, 0.9])
+    law = RestitutionLaw([0.0, 10.0], [0.9, 0.9])
     ours, constant = (rock(PRISM, restitution=e, model=model, **RELEASED) for e in (law, 0.9))
     np.testing.assert_array_equal(ours.angle, constant.angle)
 
 
 @pytest.mark.parametrize("model", ["linear", "nonlinear"])
 def test_each_impact_loses_by_the_law_at_its_own_speed(model):
-    law = RestitutionLaw.table([0.1, 0.4, 0.8], [0.99, 0.9, 0.7])
+    law = RestitutionLaw([0.1, 0.4, 0.8], [0.99, 0.9, 0.7])
     history = rock(PRISM, restitution=law, model=model, **RELEASED)
     arriving = np.abs(history.impact_velocities)
     assert arriving[0] > 0.8
@@ -44,4 +44,4 @@ def test_each_impact_loses_by_the_law_at_its_own_speed(model):
 )
 def test_a_table_that_is_none_is_refused(speeds, values, words):
     with pytest.raises(ValueError, match=words):
-        RestitutionLaw.table(speeds, values)
+        RestitutionLaw(speeds, values)

@@ -74,7 +74,6 @@ def _hash_of_sources() -> str:
     imported = {
         module.decode().replace(".", "/") + ".py" for name in with_kernels for module in _IMPORT.findall(sources[name])
     }
-    digest = hashlib.sha256()
-    for name in sorted(with_kernels | imported & sources.keys()):
-        digest.update(f"{name} {len(sources[name])}\n".encode() + sources[name])
-    return digest.hexdigest()[:16]
+    names = sorted(with_kernels | imported & sources.keys())
+    hashed = b"".join(f"{name} {len(sources[name])}\n".encode() + sources[name] for name in names)
+    return hashlib.sha256(hashed).hexdigest()[:16]

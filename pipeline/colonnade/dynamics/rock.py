@@ -45,9 +45,14 @@ class RestitutionLaw:
     values : ndarray, shape (m,)
         e at these speeds, between 0 and 1.
 
+    Raises
+    ------
+    ValueError
+        If speeds do not rise from 0 or above, a value is not between 0 and 1, or their numbers differ.
+
     Examples
     --------
-    >>> law = RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
+    >>> law = RestitutionLaw([0.0, 1.0], [1.0, 0.9])
     >>> float(law(0.5)), float(law(3.0))
     (0.95, 0.9)
     """
@@ -57,35 +62,14 @@ class RestitutionLaw:
 
     def __post_init__(self) -> None:
         speeds, values = samples("speeds", self.speeds), samples("values", self.values)
+        object.__setattr__(self, "speeds", speeds)
+        object.__setattr__(self, "values", values)
         if speeds.size != values.size:
             raise ValueError(f"values has {values.size} numbers; one for each of {speeds.size} speeds was expected")
         if speeds[0] < 0.0 or not (np.diff(speeds) > 0.0).all():
             raise ValueError("The speeds of a restitution law have to be rising numbers from 0 rad/s on")
         for speed, e in zip(speeds.tolist(), values.tolist(), strict=True):
             number(f"e at {speed:g} rad/s", e, "a number between 0 and 1", low=0.0, high=1.0)
-
-    @classmethod
-    def table(cls, speeds: ArrayLike, values: ArrayLike) -> RestitutionLaw:
-        """
-        Build a law from points.
-
-        Parameters
-        ----------
-        speeds : array_like, shape (m,)
-            |ω| just before an impact, rad/s, rising.
-        values : array_like, shape (m,)
-            e at these speeds, between 0 and 1.
-
-        Returns
-        -------
-        law : RestitutionLaw
-
-        Raises
-        ------
-        ValueError
-            If speeds do not rise from 0 or above, a value is not between 0 and 1, or their numbers differ.
-        """
-        return cls(samples("speeds", speeds), samples("values", values))
 
     def __call__(self, speed: ArrayLike) -> Array:
         """Give e at |ω| (rad/s), shape of `speed`."""

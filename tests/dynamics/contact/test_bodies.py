@@ -143,7 +143,7 @@ def test_a_drum_thrown_off_is_the_one_that_overturned():
     assembly = _stack(DRUM, 2)
     _, begin = standing(Structure.of_assembly(assembly, ContactLaw()))
     thrown = Start(begin.position, np.array([2.0, 0.0, 0.0]))
-    history = simulate_assembly(assembly, duration=0.6, starts={"d1": thrown}, step=5e-6)
+    history = simulate_assembly(assembly, law=ContactLaw(), duration=0.6, starts={"d1": thrown}, step=5e-6)
     assert history.outcome == "overturned"
     assert history.overturned_bodies == ("d1",)
     assert history.bodies["d0"].residual[0] < 0.1

@@ -65,7 +65,7 @@ def integrated(block, motion, amplitude, restitution, model, impacts):
     return np.array(found)
 
 
-LAW = RestitutionLaw.table([0.0, 0.3, 0.7, 2.0], [1.0, 0.95, 0.9, 0.8])
+LAW = RestitutionLaw([0.0, 0.3, 0.7, 2.0], [1.0, 0.95, 0.9, 0.8])
 """Kinks lie among the speeds of the cases below."""
 
 CASES = {
@@ -149,7 +149,7 @@ def test_a_ramp_uplifts_the_block_where_its_envelope_first_reaches_the_threshold
 @pytest.mark.parametrize("model", MODELS)
 def test_a_block_left_to_itself_after_the_motion_loses_by_the_law(model):
     motion = Harmonic.cycles(5.0 * P, 2)
-    free_loss = RestitutionLaw.table([0.0, 1e-9], [1.0, 0.0])
+    free_loss = RestitutionLaw([0.0, 1e-9], [1.0, 0.0])
     assert harmonic_run(PRISM, motion, 9.0, 1.0, model=model).outcome == "overturned"
     stopped = harmonic_run(PRISM, motion, 2.5, free_loss, model=model)
     assert stopped.outcome == "rocking"

@@ -49,7 +49,7 @@ def test_each_side_has_its_own_angle_frequency_and_restitution():
     np.testing.assert_allclose(sides.critical, [0.21, 0.15])
     np.testing.assert_allclose(sides.p, np.sqrt([80 * 9.81 * 0.61 / 41.2, 80 * 9.81 * 0.60 / 40.0]))
     assert sides.restitution.tolist() == [0.9, 0.8]
-    law = sides_of(LOPSIDED, RestitutionLaw.table([0.0, 2.0], [1.0, 0.8]), 0.0)
+    law = sides_of(LOPSIDED, RestitutionLaw([0.0, 2.0], [1.0, 0.8]), 0.0)
     assert law.speeds.tolist() == pytest.approx([0.0, 2.0])
     assert law.restitution.tolist() == [1.0, 0.8] * 2
 

@@ -46,7 +46,7 @@ def beyond(departure, truth):
 def test_scatter_of_e_from_impact_to_impact_is_no_departure():
     speeds = np.linspace(0, 3, 400)
     for seed in range(12):
-        law = RestitutionLaw.table(speeds, 0.95 + 0.004 * np.random.default_rng(seed).normal(size=speeds.size))
+        law = RestitutionLaw(speeds, 0.95 + 0.004 * np.random.default_rng(seed).normal(size=speeds.size))
         assert Record(restitution=law, seed=seed).departures() == {}
 
 

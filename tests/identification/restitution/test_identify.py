@@ -57,7 +57,7 @@ def test_restitution_that_differs_from_impact_to_impact_widens_the_interval():
     speeds = np.linspace(0, 5, 2001)
     steady, uneven = (
         rock(PRISM, restitution=law, theta0=0.5 * ALPHA, duration=12.0, model="nonlinear")
-        for law in (0.976, RestitutionLaw.table(speeds, 0.976 + 0.003 * np.sin(400 * speeds)))
+        for law in (0.976, RestitutionLaw(speeds, 0.976 + 0.003 * np.sin(400 * speeds)))
     )
     steady, uneven = (identify_restitution(each.time, each.angle, PRISM) for each in (steady, uneven))
     assert uneven.standard_error > 20 * steady.standard_error

@@ -114,7 +114,7 @@ def simulate_assembly(
     assembly: Assembly,
     motion: Motion | None = None,
     *,
-    law: ContactLaw | None = None,
+    law: ContactLaw,
     duration: float | None = None,
     step: float | None = None,
     starts: Mapping[str, Start] | None = None,
@@ -129,7 +129,7 @@ def simulate_assembly(
     assembly : Assembly
     motion, duration, step
         As of `simulate`.
-    law : ContactLaw, optional
+    law : ContactLaw
         Of all interfaces. Without a stiffness, each has its own by the weight above it.
     starts : mapping of str to Start, optional
         Of single bodies by name, instead of `tilts`.
@@ -148,7 +148,6 @@ def simulate_assembly(
     ValueError
         If an argument is out of its range, or the step is longer than the longest stable one, which is then given.
     """
-    law = ContactLaw() if law is None else law
     structure = Structure.of_assembly(assembly, law) if structure is None else structure
     begin = dict(zip(structure.names, standing(structure, **tilts), strict=True)) | dict(starts or {})
     together, bodies = _run(structure, list(begin.values()), motion, duration, step)

@@ -121,7 +121,7 @@ class Structure:
     def of_body(cls, body: ContactBody, law: ContactLaw, gravity: float) -> Structure:
         """Let one body stand on the table."""
         rest = np.array([[0.0, 0.0, body.height]])
-        joint = _on_table(body, 0, law.bearing(body, gravity), rest[0], body.mass * gravity)
+        joint = _on_table(body, 0, law, rest[0], body.mass * gravity, body.height)
         return cls(gravity, [""], [body], rest, [[joint]], [[0]], [atan2(body.half_width, body.height)])
 
     @classmethod
@@ -135,9 +135,7 @@ class Structure:
         for row, (name, placed) in enumerate(assembly.bodies.items()):
             body, (mass, height), own = bodies[row], carried(assembly, name), []
             if not placed.on:
-                weight = mass * assembly.gravity
-                stiff = law.under(weight / float(body.node_area.sum()), height)
-                own.append(_on_table(body, row, stiff, rest[row], weight))
+                own.append(_on_table(body, row, law, rest[row], mass * assembly.gravity, height))
             for below, share in supports(assembly, name).items():
                 load, (base, top) = mass * share * assembly.gravity, _faces(placed, assembly.bodies[below])
                 ends = (row, base, numbers[below], top), (numbers[below], top, row, base)
@@ -250,7 +248,8 @@ def _side(carrier: int, face: _Face, target: int, other: _Face, law: ContactLaw,
     )
 
 
-def _on_table(body: ContactBody, number: int, law: ContactLaw, rest: Array, load: float) -> Joint:
+def _on_table(body: ContactBody, number: int, law: ContactLaw, rest: Array, load: float, height: float) -> Joint:
+    law = law.under(load / float(body.node_area.sum()), height)
     side = Interface(at=body, carrier=number, target=TABLE, law=law, face=(inf, inf, 0.0, 0.0, 0.0), apart=rest)
     return Joint([side], load)
 

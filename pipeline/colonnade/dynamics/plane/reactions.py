@@ -114,15 +114,11 @@ def reactions(history: History, motion: Motion) -> Reactions:
     vertical = np.where(lies, np.nan, block.mass * above)
     with np.errstate(divide="ignore", invalid="ignore"):
         required = np.where(vertical <= 0.0, np.inf, np.abs(horizontal) / vertical)
-    return Reactions(history.time, horizontal, vertical, required, history.impact_times, _impact_friction(history))
-
-
-def _impact_friction(history: History) -> Array:
-    """Ratio of the impulses of each impact, from the velocities of the centre of mass before and after it."""
-    block, before, after = history.block, history.impact_velocities, history.rebound_velocities
-    arriving = before > 0.0
+    # The velocities of the centre of mass before and after each impact.
+    before, after = history.impact_velocities, history.rebound_velocities
     height = [side.pole_distance * np.cos(side.critical_angle) for side in block.sides]
     half_width = [side.half_width for side in block.sides]
-    along = np.where(arriving, *height[::-1]) * after - np.where(arriving, *height) * before
-    above = np.where(arriving, *half_width[::-1]) * np.abs(after) + np.where(arriving, *half_width) * np.abs(before)
-    return np.asarray(np.abs(along) / above)
+    arriving = before > 0.0
+    level = np.where(arriving, *height[::-1]) * after - np.where(arriving, *height) * before
+    turned = np.where(arriving, *half_width[::-1]) * np.abs(after) + np.where(arriving, *half_width) * np.abs(before)
+    return Reactions(history.time, horizontal, vertical, required, history.impact_times, np.abs(level) / turned)
