@@ -249,11 +249,7 @@ def overturning_spectrum(
         forcing = kind.forcing(block, ratio * block.p, cycles, phase)
         runs = partial(outcomes_of, block=block, forcing=forcing, restitution=e, model=model)
         limits.append(limits_of(scan, runs, width=width, edge=edge))
-    ends = {"restitution_negative": e[0], "restitution_positive": e[1], "rest_angle": DEFAULT_REST_ANGLE}
-    shaped = {"cycles": cycles, "phase": phase} if kind is MAVROEIDIS_PAPAGEORGIOU else {}
-    searched = {"largest": largest, "width": width, "edge": edge}
-    return OverturningSpectrum(
-        **over_frequency(omegas, limits),
-        options={"model": model, **ends, **shaped, **searched},
-        pulse=pulse,
-    )
+    options = {"model": model, "restitution_negative": e[0], "restitution_positive": e[1]}
+    options |= {"cycles": cycles, "phase": phase} if kind is MAVROEIDIS_PAPAGEORGIOU else {}
+    options |= {"rest_angle": DEFAULT_REST_ANGLE, "largest": largest, "width": width, "edge": edge}
+    return OverturningSpectrum(**over_frequency(omegas, limits), options=options, pulse=pulse)

@@ -13,8 +13,6 @@ from colonnade.dynamics.contact.body import InSpace
 from colonnade.dynamics.contact.history import AssemblyHistory, ContactHistory
 from colonnade.dynamics.ensemble import Plan
 
-Range = tuple[float, float]
-
 
 @dataclass(frozen=True, kw_only=True)
 class ContactPlan(Plan):
@@ -33,7 +31,7 @@ class ContactPlan(Plan):
     """
 
     space: InSpace
-    ranges: Mapping[str, Range]
+    ranges: Mapping[str, tuple[float, float]]
     misplacement: float = 0.0
 
     @property
