@@ -38,32 +38,23 @@ def passed(frequency: Array, cutoff_hz: float | None, step: float) -> Array:
     return np.asarray(1.0 / (1.0 + np.minimum(ratio, 1e6) ** (2 * ORDER)))
 
 
-@dataclass(frozen=True)
-class Bands:
-    """A spectrum averaged over bands: mean frequency (Hz), mean power, and degrees of freedom of each; knees (Hz)."""
+def knees_of(frequency: Array, power: Array, freedom: Array) -> tuple[Array, Array]:
+    """
+    Hold a spectrum, averaged over bands, against noise with each of some knees.
 
-    frequency: Array
-    power: Array
-    freedom: Array
-    knees: Array
-
-    @classmethod
-    def of(cls, frequency: Array, power: Array, freedom: Array) -> Bands:
-        """Average a spectrum's power, that has so many degrees of freedom at each frequency (Hz)."""
-        edges = [0]
-        while edges[-1] < power.size:
-            edges.append(edges[-1] + max(1, int(BAND * edges[-1])))
-        starts = np.array(edges[:-1])
-        total, weight = (np.add.reduceat(each, starts) for each in (power, freedom))
-        middle = np.add.reduceat(frequency, starts) / np.diff([*edges[:-1], power.size])
-        knees = np.append(0.0, np.geomspace(frequency[0], 3 * frequency[-1], KNEES))
-        return cls(middle, total / weight, weight, knees)
-
-    def likelihoods(self) -> Array:
-        """Logarithm of Whittle's likelihood of each of `knees`, at the likeliest level."""
-        shape = 1 + self.knees[:, None] / self.frequency
-        level = (self.freedom * self.power / shape).sum(axis=-1, keepdims=True) / self.freedom.sum()
-        return np.asarray(-0.5 * (self.freedom * np.log(level * shape)).sum(axis=-1))
+    `power` has so many degrees of freedom at each `frequency` (Hz). Returns the knees (Hz), the first 0 for white
+    noise, and the logarithm of Whittle's likelihood of each, at its likeliest level.
+    """
+    edges = [0]
+    while edges[-1] < power.size:
+        edges.append(edges[-1] + max(1, int(BAND * edges[-1])))
+    starts = np.array(edges[:-1])
+    knees = np.append(0.0, np.geomspace(frequency[0], 3 * frequency[-1], KNEES))
+    middle = np.add.reduceat(frequency, starts) / np.diff([*edges[:-1], power.size])
+    power, freedom = (np.add.reduceat(each, starts) for each in (power, freedom))
+    shape = 1 + knees[:, None] / middle
+    level = (power / shape).sum(axis=-1, keepdims=True) / freedom.sum()
+    return knees, np.asarray(-0.5 * (freedom * np.log(level * shape)).sum(axis=-1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +86,8 @@ class Filter:
         left = passed(frequency, self.cutoff_hz, self.step) ** 2
         kept = left > PASSED
         power = np.abs(np.fft.rfft(np.nan_to_num(residual)))[1:][kept] ** 2 / left[kept]
-        return bool(np.argmax(Bands.of(frequency[kept], power, np.full(power.size, 2.0)).likelihoods()) > 0)
+        _, likelihoods = knees_of(frequency[kept], power, np.full(power.size, 2.0))
+        return bool(np.argmax(likelihoods) > 0)
 
     def whitened(self, columns: Array, knee: float) -> tuple[Array, Array, float]:
         """
@@ -195,8 +187,7 @@ def find_knee(rows: Array, frequency: Array, precision: Array, level: float) -> 
     taken = (solved / size[:, None] * columns).sum(axis=0) / level
     power = (rows[0] ** 2).reshape(-1, 2).sum(axis=1)
     freedom = np.maximum(1 - taken.reshape(-1, 2).sum(axis=1), 1e-3)
-    bands = Bands.of(frequency, power, freedom)
-    found = bands.likelihoods()
+    knees, found = knees_of(frequency, power, freedom)
     best = int(np.argmax(found))
     # White noise is as likely beforehand as all others together.
-    return float(bands.knees[best]) if found[best] > found[0] + np.log(KNEES) else 0.0
+    return float(knees[best]) if found[best] > found[0] + np.log(KNEES) else 0.0

@@ -259,13 +259,11 @@ class Path:
             step, gain = path._step(precision, power)
             if gain < CONVERGED:
                 break
-            for halving in range(MOST_HALVINGS):
-                tried = replace(path, values=path.values + 0.5**halving * step)
-                if tried._objective(precision, power) < here * (1 + 1e-9):
-                    break
-            else:
+            shorter = (replace(path, values=path.values + 0.5**halving * step) for halving in range(MOST_HALVINGS))
+            better = next((each for each in shorter if each._objective(precision, power) < here * (1 + 1e-9)), None)
+            if better is None:
                 break
-            path, power = tried, tried.power
+            path, power = better, better.power
             here = path._objective(precision, power)
         return path
 
