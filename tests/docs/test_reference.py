@@ -49,20 +49,6 @@ def test_every_key_of_a_model_has_its_place(pages, page, path, model):
         assert " ".join(purpose.split()) in pages[f"campaign/{page}.md"]
 
 
-@pytest.mark.parametrize(
-    ("node", "form", "bounds"),
-    [
-        ({"type": "number", "exclusiveMinimum": 0, "maximum": 1}, "number", "above 0, at most 1"),
-        ({"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}, "list of 2 × text", ""),
-        ({"anyOf": [{"enum": ["auto"]}, {"type": "integer", "minimum": 1}]}, '`"auto"` or whole number', "at least 1"),
-        ({"type": "string", "unit": "m", "between": "1 m and 2 m"}, "quantity", "1 m and 2 m"),
-    ],
-)
-def test_a_schema_is_put_into_words(node, form, bounds):
-    assert contract.form(node, {}) == form
-    assert contract.bounds(node) == bounds
-
-
 def test_every_stage_has_its_file(pages):
     assert [name for name in STAGES if f"(file-{name})=" not in pages["files.md"]] == []
     assert "| `rocking_angle` | `rad` |" in reference.pages_of_results()["files.md"]

@@ -1,4 +1,4 @@
-"""The built site in a browser, from its folder: no complaint, no dead link, search, a telephone, paper."""
+"""The built site in a browser, from its folder: no complaint, no dead link, nothing wider than a telephone."""
 
 from html.parser import HTMLParser
 from pathlib import Path
@@ -11,11 +11,10 @@ from browsing import TELEPHONE, own_chromium, violations, visiting
 pytestmark = pytest.mark.whole
 
 SITE = Path(__file__).resolve().parents[2] / "docs" / "build" / "html"
-PRINTED = ("docs/index.html", "docs/explanation/restitution.html", "docs/reference/generated/library/rock.html")
-"""Pages of three kinds."""
-
 KINDS = (
-    *PRINTED,
+    "docs/index.html",
+    "docs/explanation/restitution.html",
+    "docs/reference/generated/library/rock.html",
     "README.html",
     "docs/contributing.html",
     "docs/explanation/rocking.html",
@@ -29,8 +28,6 @@ KINDS = (
 )
 """Pages of every kind."""
 
-PAPER = (718, 1000)
-"""Width of A4 within its margins."""
 
 WIDER = """() => [...document.querySelectorAll('article *')].filter(element => {
   const box = element.closest('.table-wrapper, pre, div.math, .sphx-glr-thumbnails, svg');
@@ -104,24 +101,6 @@ def test_a_page_can_be_read_by_everybody(address, visit):
     assert violations(visit(address), {"preload": False}) == []
 
 
-@pytest.mark.parametrize(
-    ("words", "found"), [("restitution", "explanation/restitution.html"), ("least-width", "reference/commands.html")]
-)
-def test_search_finds(words, found, visit):
-    page = visit("search.html")
-    page.fill("article input[name=q], input.sidebar-search", words)
-    page.keyboard.press("Enter")
-    page.get_by_text("Search finished").wait_for()
-    links = page.eval_on_selector_all("#search-results li a", "links => links.map(link => link.href)")
-    assert any(found in link for link in links)
-
-
-def test_the_root_leads_to_the_first_page(visit):
-    page = visit("index.html")
-    page.wait_for_url("**/docs/index.html")
-    assert page.locator("h1").inner_text().startswith("colonnade")
-
-
 def test_equations_are_drawn_by_the_browser_and_can_be_read_aloud(pages, visit):
     with_equations = [path for path in pages if "<math" in path.read_text(encoding="utf-8")]
     page = visit(with_equations[0].relative_to(SITE).as_posix(), scripts=False)
@@ -130,15 +109,3 @@ def test_equations_are_drawn_by_the_browser_and_can_be_read_aloud(pages, visit):
     )
     assert boxes
     assert all(width > 4 and text for width, text in boxes)
-
-
-@pytest.mark.parametrize("address", PRINTED)
-def test_on_paper_a_page_is_its_text_alone(address, visit):
-    page = visit(address, screen=PAPER)
-    page.emulate_media(media="print")
-    assert page.locator("article h1").is_visible()
-    for navigation in (".sidebar-drawer", ".skip-to-content"):
-        assert not page.locator(navigation).is_visible()
-    assert page.evaluate("document.documentElement.scrollWidth") <= PAPER[0]
-    colour = page.evaluate("getComputedStyle(document.querySelector('article')).backgroundColor")
-    assert colour in ("rgb(255, 255, 255)", "rgba(0, 0, 0, 0)")

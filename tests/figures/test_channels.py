@@ -1,4 +1,4 @@
-"""Channels as recorded: both scales, flags, spectra; and that nothing grows without bound."""
+"""Channels as recorded: both scales, failed samples, spectra; and that nothing grows without bound."""
 
 import numpy as np
 import pytest
@@ -6,51 +6,14 @@ import xarray as xr
 
 from colonnade.campaign import Test
 from colonnade.figures import channels
-from colonnade.figures.channels import Channel, Scale, channels_as_recorded
-from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.subject import OfTest
-from colonnade.signals.metrics import Density
 from colonnade.signals.quality import Flag
 from colonnade.store.records.stored import Stored
 
-TIME = np.arange(0, 2, 0.01)
-FREQUENCY = np.geomspace(1, 50, 20)
 
-
-def channel(**changed):
-    given = {
-        "name": "top",
-        "unit": "mm",
-        "curve": Curve(TIME, 10 * np.sin(TIME)),
-        "recorded": Scale("V", -5.0, 1.0),
-        "flags": np.full(TIME.size, Flag.GOOD),
-        "before": Density(FREQUENCY, 1 / FREQUENCY),
-        "after": Density(FREQUENCY, FREQUENCY**-3),
-        "cutoff": 25.0,
-    }
-    return Channel(**given | changed)
-
-
-def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot():
-    values, flags = 10 * np.sin(TIME), np.full(TIME.size, Flag.GOOD)
-    values[50:61:10], flags[50], flags[60] = [90.0, np.nan], Flag.FAIL, Flag.MISSING
-    history = channels_as_recorded([channel(curve=Curve(TIME, values), flags=flags)]).axes[0]
-    marked = next(line for line in history.lines if line.get_label() == "failed or missing")
-    assert marked.get_xdata().tolist() == [0.5, 0.6]
-    assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]
-
-
-def test_a_channel_without_samples_enough_has_no_spectrum():
-    figure = channels_as_recorded([channel(before=None, after=None)])
-    assert [text.get_text() for text in figure.axes[1].texts] == ["no spectrum"]
-
-
-SAMPLED = np.arange(0, 4, 0.005)
-
-
-def stored(number=1, spikes=()):
-    noise = np.random.default_rng(1).standard_normal(SAMPLED.size)
-    flags = np.full(SAMPLED.size, Flag.GOOD, np.int8)
+def stored(number=1, spikes=(), samples=800):
+    noise = np.random.default_rng(1).standard_normal(samples)
+    flags = np.full(samples, Flag.GOOD, np.int8)
     flags[list(spikes)] = Flag.FAIL
     variables, attributes = {}, {}
     for index in range(number):
@@ -59,7 +22,7 @@ def stored(number=1, spikes=()):
         variables[f"{name}_recorded"] = ("elapsed", noise)
         variables[f"{name}_quality"] = ("elapsed", flags)
         attributes[name] = {"quantity": "displacement", "recorded_unit": "V", "cutoff_hz": 25.0}
-    found = Stored(datasets={("ingest", None): xr.Dataset(variables, {"elapsed": SAMPLED})})
+    found = Stored(datasets={("ingest", None): xr.Dataset(variables, {"elapsed": 0.005 * np.arange(samples)})})
     found.channels = attributes
     return picture_of(found)
 
@@ -73,6 +36,10 @@ def test_the_recorders_scale_follows_from_the_samples():
     assert history.get_ylabel() == "mm"
     heights = {text.get_text(): text.xy[1] for text in history.texts}
     assert heights["2"] == pytest.approx(4.5)  # 2 mm/V and 0.5 mm
+
+
+def test_a_channel_without_samples_enough_has_no_spectrum():
+    assert [text.get_text() for text in stored(samples=5).figure.axes[1].texts] == ["no spectrum"]
 
 
 def test_failed_samples_are_counted():

@@ -7,8 +7,6 @@ from colonnade.dynamics.models import MODELS
 from colonnade.figures.histories import (
     LARGEST_RATIO,
     SMALLEST_RATIO,
-    Spread,
-    bands_over_time,
     draw_angle,
     limit_of,
 )
@@ -51,28 +49,3 @@ def test_the_critical_angle_is_marked_where_the_axis_reaches_it():
 )
 def test_the_angle_axis_shows_rocking_and_not_noise_or_the_fall(amplitude, limit):
     assert limit_of([swing(amplitude)]) == pytest.approx(limit, rel=1e-3)
-
-
-LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
-FINE = np.linspace(0.0, 10.0, 5001)
-CENTRE = 0.4 * np.sin(4 * FINE)
-BANDS = CENTRE + np.array([[-0.1], [-0.05], [0.0], [0.05], [0.1]]) * FINE / 10
-
-
-def spread(probability=0.0, horizon=10.0):
-    return Spread(FINE, LEVELS, BANDS, probability, horizon)
-
-
-def test_the_probability_of_overturning_is_written_where_there_is_one():
-    def said(probability):
-        return bands_over_time({}, {"linear": spread(probability)}).axes[0].get_title(loc="right")
-
-    assert "12\u00a0% overturn" in said(0.12)
-    assert "overturn" not in said(0.0)
-
-
-def test_each_model_has_its_horizon_marked_unless_it_is_the_records_end():
-    figure = bands_over_time({}, {"linear": spread(horizon=4.0), "nonlinear": spread(horizon=7.0), "contact": spread()})
-    marks = [[line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 2] for axes in figure.axes]
-    assert marks == [[4.0], [7.0], []]
-    assert ["horizon" in [text.get_text() for text in axes.texts] for axes in figure.axes] == [True, True, False]

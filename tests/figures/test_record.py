@@ -14,36 +14,12 @@ def swing(amplitude):
     return Curve(TIME, amplitude * np.sin(2 * np.pi * TIME))
 
 
-def labels(figure):
-    return [axes.get_ylabel().replace("\n", " ") for axes in figure.axes]
-
-
 def whole(*panels, **options):
     return whole_record({"measured": swing(0.4), "linear": swing(0.3)}, panels, **options)
 
 
 MISFIT = Panel("Misfit", "predicted −\nmeasured, / α", "", {"linear": swing(0.1)})
 BASE = Panel("Base", "base", "m/s²", {"": swing(12.0)}, 2.0, "g tan α")
-
-
-def test_each_quantity_has_a_panel_below_the_angle_in_the_order_given():
-    figure = whole(MISFIT, Panel("Slide", "slide", "mm", {"": swing(2.0)}), BASE)
-    assert labels(figure) == ["θ / α", "predicted − measured, / α", "slide (mm)", "base (m/s²)"]
-    tops = [axes.get_position().y1 for axes in figure.axes]
-    assert tops == sorted(tops, reverse=True)
-    assert len({axes.get_xlim() for axes in figure.axes}) == 1
-    assert figure.axes[-1].get_xlabel() == "time (s)"
-
-
-@pytest.mark.parametrize(("level", "lines"), [(1.5, 3), (5.0, 1), (None, 1)], ids=["within", "beyond", "not known"])
-def test_the_uplift_acceleration_is_drawn_where_the_motion_reaches_it(level, lines):
-    figure = whole(Panel("Base", "base", "", {"": swing(2.0)}, level, "g tan α"))
-    assert len(figure.axes[1].lines) == lines
-
-
-def test_the_largest_angle_is_ringed_but_not_where_it_leaves_the_axis():
-    assert len(whole(peak=(1.25, 0.4)).axes[0].lines) == 3
-    assert len(whole(peak=(1.25, 40.0)).axes[0].lines) == 2
 
 
 def test_no_label_leaves_the_figure_or_meets_another():

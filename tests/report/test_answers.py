@@ -6,7 +6,6 @@ from html import unescape
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.forms.summary import Summary
 from colonnade.report.assessments_page import assessments_page
 from colonnade.report.forecasts_page import forecasts_page
 from colonnade.report.paper import document_of
@@ -80,10 +79,3 @@ def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     assert 'href="forecasts.html"' in layout.report.read_text(encoding="utf-8")
     chapters = [chapter["title"] for chapter in document_of(campaign, folder).data["chapters"]]
     assert chapters[-2:] == ["Forecasts", "Methods"]
-
-
-def test_without_a_forecast_there_is_no_page(foreseen_copy):
-    layout = Layout(foreseen_copy)
-    summary = Summary.model_validate_json(layout.summary_json.read_text(encoding="utf-8"))
-    assert forecasts_page(layout, summary) == {}
-    assert forecasts_page(layout, None) == {}

@@ -200,16 +200,6 @@ def test_no_picture_is_taken_from_outside_the_report(campaign, folder, tmp_path)
         assert document.data["cover"] is None
 
 
-def test_without_a_photo_the_cover_has_the_first_drawing_of_a_setup(campaign, folder):
-    (folder / "photos" / "free-02-1.jpg").unlink()
-    (folder / "setups").mkdir()
-    (folder / "setups" / "prism+frame.svg").write_text("<svg/>", encoding="utf-8")
-    drawn = '<section id="setups"><figure><img src="../setups/prism+frame.svg" alt="drawn"></figure></section>'
-    (folder / "specimens" / "prism.html").write_text(f"<main>{drawn}</main>", encoding="utf-8")
-    cover = document_of(campaign, folder).data["cover"]
-    assert cover == "setups-prism+frame.svg"
-
-
 TYPESET = """
 import sys
 from pathlib import Path

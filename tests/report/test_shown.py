@@ -165,12 +165,6 @@ def test_what_people_decided_is_told(texts):
     assert "Reviewed by hand" not in texts["tests/span-2.0.html"]
 
 
-def test_tests_lead_to_the_one_before_and_after(texts):
-    assert texts["tests/span-2.5.html"].count('href="../tests/span-2.0.html"') == 2
-    assert texts["tests/span-2.5.html"].count('href="../tests/span-3.0.html"') == 2
-    assert "<span>←" not in texts["tests/free-01.html"]
-
-
 def test_a_specimen_gives_its_properties_at_both_scales(texts):
     words = words_of(texts["specimens/prism.html"])
     assert "critical angle α – 0.1864 rad 0.1864 rad 0.1864 rad" in words

@@ -12,7 +12,7 @@ import chain
 from colonnade.campaign.settings import MeasurementSettings
 from colonnade.dynamics.ensemble import LEVELS, Ensemble
 from colonnade.dynamics.motion import Motion
-from colonnade.identification.response.rank import FEWEST, is_within
+from colonnade.identification.response.rank import is_within
 from colonnade.stages import ensemble as running
 from colonnade.stages.ensemble import EnsembleInputs, measurement_errors
 from colonnade.stages.parts.beginning import Beginning
@@ -208,12 +208,6 @@ def ranked(measured, found=None, *, offset=0.0, horizon=TIME[-1], **errors):
     found = ensemble_of() if found is None else found
     beginning = replace(BEGINNING, zero_offset=offset)
     return running.ranks(measured.isel(elapsed=slice(FIRST, None)), beginning, found, known, PRISM, horizon)
-
-
-def test_a_rank_needs_runs_enough():
-    few, enough = (ranked(rocking(), ensemble_of(members))["within_spread"] for members in (FEWEST - 1, FEWEST))
-    assert np.isnan(few)
-    assert np.isfinite(enough)
 
 
 def test_peaks_are_judged_with_the_noise_of_the_measurement():

@@ -3,7 +3,6 @@
 import json
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -13,13 +12,6 @@ from scipy.signal import butter, sosfiltfilt
 from colonnade.figures.files.output import Picture
 from colonnade.report.interactive import panels
 from colonnade.report.interactive.panels import LONG, Samples, packed, script, tables_of
-
-
-def test_even_times_are_a_start_and_an_interval():
-    samples = Samples()
-    samples.clock(0.5 + 0.002 * np.arange(100))
-    assert samples.clocks[0] == {"start": 0.5, "interval": pytest.approx(0.002), "count": 100}
-    assert samples.series == []
 
 
 def test_equal_clocks_and_equal_series_are_kept_once():
