@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.validation import described, number, samples
+from colonnade.validation import number, samples
 
 
 @given(st.floats(allow_nan=False), st.floats(allow_nan=False), st.floats(allow_nan=False))
@@ -53,18 +53,3 @@ def test_an_array_comes_back_contiguous_and_in_double_precision():
 def test_what_is_no_such_array_is_told(values, options, message):
     with pytest.raises(ValueError, match=message):
         samples("x", values, **options)
-
-
-@pytest.mark.parametrize(
-    ("value", "words"),
-    [
-        (b"ab", "the text b'ab'"),
-        ("a" * 99, "the text '" + "a" * 40 + "'"),
-        (np.datetime64("2024-01-01"), "2024-01-01"),
-        ([[1], [1, 2]], "an array of shape (2,)"),
-        (10**50, "a int"),
-        (None, "None"),
-    ],
-)
-def test_a_value_is_described_in_a_few_words(value, words):
-    assert described(value) == words

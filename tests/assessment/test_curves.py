@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from colonnade.assessment.curves import IsotonicCurve, fit_isotonic, fit_lognormal, lognormal_misfit
+from colonnade.assessment.curves import IsotonicCurve, fit_isotonic, fit_lognormal
 from colonnade.assessment.intervals import FEWEST_RECORDS, Band, Resampling
 from colonnade.assessment.outcomes import gather
 from fragility_trial import Population
-from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of, two_kinds
+from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of
 
 
 def single(peaks):
@@ -85,16 +85,6 @@ def test_intervals_of_few_records_at_few_levels_hold_the_truth_as_often_as_they_
     for name, truth in (("median", MEDIAN), ("beta", population.beta)):
         held = np.mean([getattr(fit, name).low <= truth <= getattr(fit, name).high for fit in given])
         assert held > 0.95 - 3 * np.sqrt(0.95 * 0.05 / len(given))
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_two_kinds_of_records_are_not_lognormal(seed):
-    assert lognormal_misfit(two_kinds(seed), Resampling(300)) < 0.05
-
-
-def test_lognormal_outcomes_pass():
-    found = [lognormal_misfit(lognormal(seed), Resampling(300)) for seed in range(12)]
-    assert sum(each < 0.05 for each in found) <= 2
 
 
 def test_neighbours_that_fall_are_pooled():

@@ -105,10 +105,3 @@ def test_histories_that_survive_more_than_overturned_their_record_and_draw_are_c
     peak = [[[0.5, 0.5], [2, 0.5], [0.5, 0.5], [0.5, 2]], [[0.5, 0.5], [2, 2], [2, 2], [2, 2]]]
     found = Fragility(gather(["one", "two"], [1, 2, 3, 4.0], peak), Resampling(2))
     assert found.resurrected == pytest.approx(2 / 16)
-
-
-def test_answers_are_read_from_the_lognormal_curve_if_it_fits():
-    found = Fragility(lognormal(1), Resampling(100), measure="pgv")
-    assert found.taken == "lognormal"
-    assert found.reaches(0.5) == pytest.approx(found.lognormal.median, rel=1e-6)
-    assert found.digest()["median"].endswith("m/s")

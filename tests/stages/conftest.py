@@ -11,29 +11,17 @@ from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.readers.recording import RecordedChannel, Recording
-from prism import PRISM, SPECIMEN, entry
+from prism import PRISM, campaign_of, entry
 
 ON_SPECIMEN = 'quantity = "displacement", on = "specimen", direction = [1, 0, 0], relative_to = "table"'
-TEXT = f"""
-schema = 1
-campaign = "small"
-title = "Small"
-
-[specimens]
-{SPECIMEN}
-
-[setups.frame]
-catch = "0.28 rad"
-
-[setups.frame.channels]
-top = {{column = "LVDT 1", unit = "V", gain = "12 mm/V", offset = "3 mm", range = "10 V", \
-at = ["43 mm", "0 mm", "400 mm"], {ON_SPECIMEN}}}
-bottom = {{column = "LVDT 2", unit = "mm", at = ["43 mm", "0 mm", "20 mm"], {ON_SPECIMEN}}}
-table_acceleration = {{column = "ACC", quantity = "acceleration", on = "table", direction = [1, 0, 0], unit = "g"}}
-
-{entry("free-01", "free-vibration")}
-{entry("shake-01", "earthquake", 'observed_outcome = "not-overturned"')}
-"""
+TEXT = campaign_of(
+    'top = {column = "LVDT 1", unit = "V", gain = "12 mm/V", offset = "3 mm", range = "10 V", '
+    f'at = ["43 mm", "0 mm", "400 mm"], {ON_SPECIMEN}}}',
+    f'bottom = {{column = "LVDT 2", unit = "mm", at = ["43 mm", "0 mm", "20 mm"], {ON_SPECIMEN}}}',
+    'table_acceleration = {column = "ACC", quantity = "acceleration", on = "table", direction = [1, 0, 0], unit = "g"}',
+    before='[setups.frame]\ncatch = "0.28 rad"\n',
+    tests=entry("free-01", "free-vibration") + entry("shake-01", "earthquake", 'observed_outcome = "not-overturned"'),
+)
 
 RATE = 500.0
 POINTS = [[0.043, 0.0, 0.400], [0.043, 0.0, 0.020]]
