@@ -104,12 +104,6 @@ def test_a_date_of_excel_is_a_date(tmp_path):
     assert {test.date for test in tests.values()} == {date(2013, 4, 26)}
 
 
-def test_an_ambiguous_date_in_a_log_is_refused_by_row_and_column(tmp_path):
-    rows = [[*row, "04/05/2013"] for row in ROWS]
-    with pytest.raises(CampaignError, match=r'row 2, column "date": .*2013-05-04 or 2013-04-05'):
-        with_rows(tmp_path, [[*HEADS, "date"], *rows])
-
-
 @pytest.mark.parametrize(
     ("row", "column", "cell", "told"),
     [
