@@ -84,9 +84,9 @@ class Report:
         if not layout.state.is_file():
             files.write_text(layout.state, UNWATCHED)
         # The overview is written last: its change tells open pages that all are there.
-        for asked in (chain(self._drawings(), self._tests()), self._specimens(), self._whole()):
-            products = list(asked)
-            self._made |= brought_up_to_date(products, self.graph.catalogue, workers=self.workers)
+        for in_order, *asked in ((False, self._drawings(), self._tests()), (True, self._specimens(), self._whole())):
+            products = list(chain(*asked))
+            self._made |= brought_up_to_date(products, self.graph.catalogue, workers=self.workers, in_order=in_order)
             there |= {path for product in products for path in product.paths}
         for stale in {path for pattern in OWN for path in layout.report.parent.glob(pattern)} - there:
             files.remove(stale)

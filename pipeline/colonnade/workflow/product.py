@@ -312,7 +312,7 @@ def known(product: Product, catalogue: Catalogue) -> Made | None:
 
 
 def brought_up_to_date(
-    products: Iterable[Product], catalogue: Catalogue, *, workers: int | None = 1
+    products: Iterable[Product], catalogue: Catalogue, *, workers: int | None = 1, in_order: bool = False
 ) -> dict[str, Made]:
     """
     Make those of some products that are out of date, and write each as it ends; none is a result.
@@ -324,6 +324,8 @@ def brought_up_to_date(
     catalogue : Catalogue
     workers : int or None, optional
         Processes; None for one a core.
+    in_order : bool, optional
+        Whether they are written in their order, once all are made.
 
     Returns
     -------
@@ -342,8 +344,8 @@ def brought_up_to_date(
             found[str(product.id)] = there
         else:
             waiting.append(product)
-    where = Where(workers if len(waiting) >= WORTH_A_PROCESS else 1)
-    for number, ((contents, text), reason, is_lasting) in spread(_make, waiting, where):
+    ended = spread(_make, waiting, Where(workers if len(waiting) >= WORTH_A_PROCESS else 1))
+    for number, ((contents, text), reason, is_lasting) in sorted(ended) if in_order else ended:
         product, key = waiting[number], waiting[number].key()
         for path, data in zip(product.paths, contents, strict=False):
             files.write_changed(path, stamped(data.encode() if isinstance(data, str) else data, key, path.suffix))

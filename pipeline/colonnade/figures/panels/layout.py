@@ -6,20 +6,29 @@ from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
+import numpy as np
+from matplotlib import rcParams
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.markers import TICKDOWN, TICKLEFT
 from matplotlib.patches import Patch
+from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
-from colonnade.figures.style import INK, SOFT, is_narrow, legend_columns, width
+from colonnade.figures.style import FAINT, INK, SOFT, is_narrow, legend_columns, width
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 """Room for labels left and right, the legend above, the time axis below, and between panels; inches."""
 
 LABEL = 0.52
 """Distance of the labels of vertical axes from their panel, inches: numbers of any length fit between."""
+
+BELOW, TICK, PAD = 0.27, 3.5, 7.0
+"""Distance of the label of a horizontal axis from its panel, inches; length of a tick, and a number's distance, pt."""
 
 ROOMY = 4
 """Lines up to which a legend has its usual spacing; more, as all models with a band, have to stand closer."""
@@ -103,9 +112,54 @@ def add_panel(
     across, total = (float(size) for size in figure.get_size_inches())
     place = (left / across, 1 - (top + height) / total, width / across, height / total)
     panel = figure.add_axes(place, sharex=sharex, sharey=sharey)
-    panel.xaxis.minorTicks, panel.yaxis.minorTicks = [], []  # unasked, matplotlib makes one of each
+    panel.xaxis.set_label_coords(0.5, -BELOW / height)
     panel.yaxis.set_label_coords(-(0.8 if is_narrow() else 1.0) * LABEL / width, 0.5)
+    for axis in (panel.xaxis, panel.yaxis):
+        axis.set_visible(False)
+        panel.add_artist(Scale(axis))
     return panel
+
+
+class Scale(Artist):
+    """Grid, ticks, numbers and label of an axis that is hidden: it would make five artists of each number."""
+
+    zorder = 0.6  # above bands, below curves
+
+    def __init__(self, axis: Axis) -> None:
+        super().__init__()
+        self.axis = axis
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw what is in view now."""
+        axis, axes, look = self.axis, self.axis.axes, self.axis.get_tick_params()
+        is_across = axis is axes.xaxis
+        side, marker, order = ("bottom", TICKDOWN, 1) if is_across else ("left", TICKLEFT, -1)
+        place = axes.get_xaxis_transform() if is_across else axes.get_yaxis_transform()
+        low, high = sorted(axis.get_view_interval())
+        places, slack = np.asarray(axis.get_majorticklocs()), 1e-9 * (high - low)
+        words = dict(zip(places.tolist(), axis.get_major_formatter().format_ticks(places.tolist()), strict=True))
+        places = places[(places >= low - slack) & (places <= high + slack)]
+        rules = np.repeat(places, 3), np.tile((0.0, 1.0, np.nan), places.size)
+        lines = [Line2D(*rules[::order], color=rcParams["grid.color"], linewidth=rcParams["grid.linewidth"])]
+        if look[side] and look.get("length") != 0:
+            ticks = Line2D(*(places, np.zeros_like(places))[::order], color=FAINT, linestyle="none")
+            ticks.set(marker=marker, markersize=TICK, markeredgewidth=0.8)
+            lines.append(ticks)
+        for line in lines:
+            line.set(figure=axes.figure, transform=place)
+            line.draw(renderer)
+        if look[f"label{side}"]:
+            beside, va, ha = axes.get_xaxis_text1_transform(PAD) if is_across else axes.get_yaxis_text1_transform(PAD)
+            text = Text(color=INK, fontsize=look.get("labelsize", rcParams["xtick.labelsize"]), va=va, ha=ha)
+            text.set(figure=axes.figure, transform=beside)
+            for number in places.tolist():
+                text.set(position=(number, 0.0)[::order], text=words[number])
+                text.draw(renderer)
+        point = axes.figure.dpi / 72
+        factor = axis.get_major_formatter().get_offset()
+        axis.offsetText.set(text=factor, y=axes.bbox.ymin - 20 * point if is_across else axes.bbox.ymax + 3 * point)
+        for said in (axis.label, axis.offsetText):
+            said.draw(renderer)
 
 
 def add_row(figure: Figure, count: int, top: float, height: float, *, apart: float, below: float) -> list[Axes]:
