@@ -11,9 +11,11 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint
+from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary
 from colonnade.workflow import advising
 from colonnade.workflow.advising import STEP, _limits, advise, advise_after, advise_earthquakes, advise_sines
+from colonnade.workflow.graph import restitution_taken
 from colonnade.workflow.product import Catalogue
 from foreseeing import foreseen_of
 from prism import entry
@@ -77,7 +79,8 @@ def campaign(undisturbed):
 
 def next_sine(campaign, *outcomes):
     points = [MapPoint(f"sine-{place}", OMEGA, ratio, outcome) for place, (ratio, outcome) in enumerate(outcomes)]
-    return advise_sines(campaign, "prism", points, (0.93, 0.93), 0.002)
+    pooled = restitution_taken(campaign, Layout(campaign.folder), "prism")
+    return advise_sines(campaign, "prism", pooled, points)
 
 
 def test_the_advised_amplitude_is_between_the_outcomes(campaign):

@@ -120,11 +120,7 @@ def advise_kind(
     if kind == "free-vibration":
         return advise_free(campaign, specimen, pooled, tests)
     if kind == "sine":
-        sines = (test for test in campaign.tests.values() if (test.specimen, test.kind) == (specimen, kind))
-        tilts = [campaign.setups[test.setup].table_tilt or 0.0 for test in sines]
-        deviation, _ = restitution_spread(pooled, campaign.processing.predict.ensemble.restitution)
-        tilt = max(tilts, key=abs, default=0.0)
-        return advise_sines(campaign, specimen, map_points(tests, specimen), sides(pooled), deviation, tilt)
+        return advise_sines(campaign, specimen, pooled, map_points(tests, specimen))
     return advise_earthquakes(campaign, layout, specimen, tests) if kind == "earthquake" else []
 
 
@@ -196,14 +192,7 @@ AMPLITUDES = np.linspace(0.5, 8.0, 151)
 """A that are scanned for a predicted limit."""
 
 
-def advise_sines(
-    campaign: Campaign,
-    specimen: str,
-    points: Sequence[MapPoint],
-    restitution: tuple[float, float],
-    deviation: float,
-    tilt: float = 0.0,
-) -> list[Advice]:
+def advise_sines(campaign: Campaign, specimen: str, pooled: xr.Dataset, points: Sequence[MapPoint]) -> list[Advice]:
     """
     Advise the next sine test of a specimen at each frequency that was tested or is planned, by rising frequency.
 
@@ -212,26 +201,22 @@ def advise_sines(
     campaign : Campaign
     specimen : str
         Its id.
+    pooled : xr.Dataset
+        Its e, as the stage `specimen` gives it.
     points : sequence of MapPoint
         Its sine tests.
-    restitution : tuple of float
-        e of both sides.
-    deviation : float
-        Standard deviation of e; NaN if it is not known.
-    tilt : float, optional
-        Of the table, rad.
 
     Returns
     -------
     advice : list of Advice
         None at a frequency at which the model does not overturn up to the largest of `AMPLITUDES`.
     """
-    block, settings = campaign.block(specimen), campaign.next
-    planned: list[tuple[float, MapPoint | None]] = [
-        (2 * pi * test.frequency / block.p, None)
-        for test in campaign.tests.values()
-        if test.specimen == specimen and test.kind == "sine" and test.frequency and campaign.awaited.get(test.id)
-    ]
+    block, settings, restitution = campaign.block(specimen), campaign.next, sides(pooled)
+    own = [test for test in campaign.tests.values() if (test.specimen, test.kind) == (specimen, "sine")]
+    tilt = max((campaign.setups[test.setup].table_tilt or 0.0 for test in own), key=abs, default=0.0)
+    deviation, _ = restitution_spread(pooled, campaign.processing.predict.ensemble.restitution)
+    awaited = [test.frequency for test in own if test.frequency and campaign.awaited.get(test.id)]
+    planned: list[tuple[float, MapPoint | None]] = [(2 * pi * frequency / block.p, None) for frequency in awaited]
     groups = at_one_frequency([*planned, *((point.frequency_ratio, point) for point in points)], lambda each: each[0])
     if not groups:
         return []

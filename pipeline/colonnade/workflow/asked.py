@@ -18,7 +18,7 @@ from colonnade.campaign.assessment import Prototype
 from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED
 from colonnade.campaign.syntax.fields import OneOf, Scale
 from colonnade.campaign.syntax.table import Table
-from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
+from colonnade.dynamics.block import STANDARD_GRAVITY, pair
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.spectra import rectangular
 from colonnade.errors import CampaignError, nearest
@@ -166,30 +166,26 @@ def _of_specimen(campaign: Campaign, name: str, which: Which, given: Given, is_r
 def _without_specimen(which: Which, given: Given) -> tuple[ColumnInputs, xr.Dataset]:
     from colonnade.stages.specimen import SpecimenInputs, taken
 
-    if which.specimen is not None or which.scale not in (None, 1.0) or given.get("restitution") == IDENTIFIED:
-        raise CampaignError(
-            "--specimen, --name, --scale and --restitution identified are for a specimen of a CAMPAIGN. Sizes, or "
-            "--critical-angle and --p, are of a column that is none: leave those options out."
-        )
-    prototype = _prototype(None, {"restitution": RIGID_BODY} | dict(given))
-    if "shape" in given:
-        block = _sized({key: given[key] for key in SIZES if key in given})
-    elif given.keys() & set(SIZES) or prototype.critical_angle is None or prototype.p is None:
+    sizes = {key: given[key] for key in SIZES if key in given}
+    is_model = which.specimen is not None or which.scale not in (None, 1.0) or given.get("restitution") == IDENTIFIED
+    if is_model or not ("shape" in sizes if sizes else {"critical_angle", "p"} <= given.keys()):
         raise CampaignError(
             'The column is not known. Give --shape prism --width "1 m" --height "5 m", or --critical-angle "0.2 rad" '
-            'and --p "2 rad/s", or a CAMPAIGN with --specimen.'
+            'and --p "2 rad/s", or a CAMPAIGN with --specimen; --name, --scale and --restitution identified are for '
+            "the last alone."
         )
+    prototype = _prototype(None, {"restitution": RIGID_BODY} | dict(given))
+    if sizes:
+        # Neither its depth nor its mass changes how it rocks.
+        other = {"mass": "1 kg", "depth": "1 m"} if which.shape == "prism" else {"mass": "1 kg"}
+        block = checked(SIZED[sizes["shape"]], other | sizes).block(STANDARD_GRAVITY)
     else:
+        assert prototype.critical_angle is not None
+        assert prototype.p is not None
         block = rectangular(prototype.critical_angle, 2 * pi / prototype.p)
         prototype = prototype.model_copy(update={"critical_angle": None, "p": None})
     pooled = taken(None, SpecimenInputs(block=block, given=None, level=0.95))
     return ColumnInputs(block=block, scale=1.0, prototype=prototype), pooled
-
-
-def _sized(sizes: dict[str, Any]) -> Block:
-    """Make the block of a shape and its sizes; neither its depth nor its mass changes how it rocks."""
-    other = {"mass": "1 kg", "depth": "1 m"} if sizes["shape"] == "prism" else {"mass": "1 kg"}
-    return checked(SIZED[sizes["shape"]], other | sizes).block(STANDARD_GRAVITY)
 
 
 def _prototype(written: Prototype | None, given: Given) -> Prototype:

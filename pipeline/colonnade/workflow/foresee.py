@@ -104,11 +104,8 @@ def foresee(
             "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
         )
     inputs, catalogue = inputs_of(campaign, layout, name, tilt), Catalogue(layout)
-    code, there, found = (
-        catalogue.code(MADE_BY),
-        _raw_files(campaign, layout, catalogue, own),
-        dict[Path, forms.ForecastFile](),
-    )
+    code, there = catalogue.code(MADE_BY), _raw_files(campaign, layout, catalogue, own)
+    found: dict[Path, forms.ForecastFile] = {}
     for number, (level, factor) in enumerate(factors.items(), 1):
         expect_none()
         moved = Motion(factor * base.motion.acceleration, base.motion.dt * time_scale)
