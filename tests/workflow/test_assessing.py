@@ -1,22 +1,16 @@
 """Questions of one's own: options over the keys of a campaign, columns without one, refusals."""
 
-from functools import partial
 from html import unescape
 
-import numpy as np
 import pytest
 
-from colonnade.assessment.cases import Cases, run_cases
-from colonnade.assessment.real_column import RealColumn, draw
 from colonnade.campaign import load
 from colonnade.campaign.assessment import Prototype
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.assessing import _given, assess, outcomes_of
-from colonnade.workflow.executors import Where, in_blocks
+from colonnade.workflow.assessing import _given, assess
+from colonnade.workflow.executors import Where
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.run import run
 from every import every
@@ -75,6 +69,7 @@ def test_another_measure_leaves_the_hazard_of_the_old_one(assessed):
 @every(
     ("options", "words"),
     [
+        ({"base": "sight"}, 'no assessment "sight"'),
         ({"base": "sight", "draws": 1}, 'no assessment "sight"'),
         ({"specimen": "prsm"}, 'no specimen "prsm"'),
         ({"base": None, "restitution": 0.9}, "--records"),
@@ -87,16 +82,6 @@ def test_what_cannot_be_asked_is_refused(assessed, options, words):
     with pytest.raises(CampaignError) as refused:
         own(assessed, **options)
     assert words in str(refused.value)
-
-
-def test_assessments_of_the_campaign_are_brought_up_to_date(assessed_copy):
-    campaign, layout = load(assessed_copy), Layout(assessed_copy)
-    (layout.processed / "assessments" / "site.nc").unlink()
-    [found] = assess(campaign, layout, (), {}, HERE)
-    assert found.path is not None
-    assert found.path.is_file()
-    with pytest.raises(CampaignError, match='no assessment "sight"'):
-        assess(campaign, layout, ("sight",), {}, HERE)
 
 
 def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed):
@@ -195,17 +180,3 @@ def test_while_tests_arrive_the_answers_wait(assessed_copy):
     assert not [stage for stage in result.stages if stage.stage == "assessment"]
     page = (assessed_copy / "report" / "assessments.html").read_text(encoding="utf-8")
     assert "None has been made yet" in page
-
-
-BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
-COLUMN = RealColumn(BLOCK, 0.95, p_range=(1.2, 1.5))
-WAVES = tuple(Motion(np.sin(0.1 * hertz * np.arange(200)), 0.01, transverse=np.ones(200)) for hertz in (1, 2, 3))
-DRAWS = np.stack([draw(COLUMN, 20, record=record) for record in range(3)])
-CASES = Cases(COLUMN, DRAWS, WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 1)))
-
-
-def test_blocks_give_what_the_whole_gives(tmp_path):
-    outcomes = outcomes_of(CASES, partial(in_blocks, folder=tmp_path, key="key", where=Where(workers=1)))
-    whole = run_cases(CASES)
-    for name in ("outcome", "peak_ratio"):
-        np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))

@@ -8,7 +8,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.maps import MapPlan, stability_map, steady_response
-from colonnade.errors import CampaignError, StoreError
+from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.store.records.stored import as_map, as_response
 from colonnade.store.results import ResultId
@@ -85,11 +85,6 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
 def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
     with pytest.raises(CampaignError, match=found):
         make_maps(load(small.folder), small.layout, wanted, specimens)
-
-
-def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
-    with only_run(small.layout), pytest.raises(StoreError, match="already being run"):
-        made(small)
 
 
 MAP = """
@@ -196,11 +191,6 @@ def test_sines_at_two_frequencies_make_a_map_by_each_model_in_the_plane(small):
     assert stored.attrs["restitution_source"] == "identified"
 
 
-def test_one_frequency_makes_no_map(small):
-    assert kept(small, with_sines(small, 2.0, 2.01)) == []
-    assert kept(small, with_sines(small)) == []
-
-
 @pytest.mark.smoke
 def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
     summary = with_sines(small, 2.0, 3.0)
@@ -227,11 +217,11 @@ def test_a_map_that_was_asked_for_stays_until_its_specimen_changes(small):
     assert files.read(made.path).sizes["frequency_ratio"] > 3
 
 
-def test_a_specimen_without_e_has_no_map(small):
+def test_a_specimen_without_e_or_with_one_frequency_has_no_map(small):
     summary = with_sines(small, 2.0, 3.0)
     graph = Graph(load(small.folder), small.layout, Catalogue(small.layout))
     assert list(kept_maps(graph, summary, ["prism"]))
-    assert list(kept_maps(graph, summary, [])) == []
+    assert list(kept_maps(graph, with_sines(small, 2.0, 2.01), ["prism"])) == []
     record = summary.specimens["prism"]
     refused = record.model_copy(update={"restitution": record.restitution.model_copy(update={"value": None})})
     assert list(kept_maps(graph, summary.model_copy(update={"specimens": {"prism": refused}}), ["prism"])) == []
