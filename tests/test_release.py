@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import release
-from release import ReleaseError, cited, cut, versioned
+from release import ReleaseError, cut
 
 PROJECT = Path(__file__).parents[1]
 CHANGELOG = "# Changelog\n\nWords.\n\n## Unreleased\n\n- New.\n\n## 0.1.0 · 2026-01-02\n\n- Old.\n"
@@ -17,17 +17,6 @@ FITS = re.search(r"^FITS := (.*)$", (PROJECT / "Makefile").read_text(encoding="u
 
 def test_the_changelog_is_cut_where_it_is_unreleased():
     assert cut(CHANGELOG, "0.2.0", "2026-03-04") == CHANGELOG.replace("## Unreleased", "## 0.2.0 · 2026-03-04")
-
-
-def test_version_and_citation_are_set_in_the_files_of_this_project():
-    source = (PROJECT / release.VERSION_FILE).read_text(encoding="utf-8")
-    citation = (PROJECT / "CITATION.cff").read_text(encoding="utf-8")
-    assert '\n__version__ = "9.8.7"\n' in versioned(source, "9.8.7")
-    once = cited(citation, "9.8.7", "2026-03-04")
-    assert "\nversion: 9.8.7\ndate-released: 2026-03-04\n" in once
-    assert cited(once, "9.8.8", "2026-03-05").count("date-released") == 1
-    with pytest.raises(ReleaseError, match="gives its version 0 times"):
-        versioned("", "9.8.7")
 
 
 @pytest.fixture

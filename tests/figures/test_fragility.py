@@ -52,9 +52,3 @@ def test_the_histogram_of_an_even_pit_is_even():
     [axes] = pit_histogram({"linear": evenly(20)}).axes
     (histogram,) = (patch for patch in axes.patches if patch.get_label() == "linear model")
     assert histogram.get_data().values == pytest.approx(np.full(5, 0.2))
-
-
-def test_more_tests_get_more_bins():
-    [axes] = pit_histogram({"linear": evenly(200), "nonlinear": evenly(200)}).axes
-    (histogram,) = (patch for patch in axes.patches if patch.get_label() == "nonlinear model")
-    assert histogram.get_data().values.size == 10

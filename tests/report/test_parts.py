@@ -1,16 +1,13 @@
 """A test in the report: what its page shows, and its part of the pages about all tests, as text and back."""
 
-import gc
 import shutil
-import weakref
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from colonnade.campaign import load
 from colonnade.report.asked import asked_of
-from colonnade.report.build import Part, drawn, seldom_collected
+from colonnade.report.build import Part, drawn
 from colonnade.report.pictures import read_of_specimen, read_of_test, span_of
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
@@ -69,15 +66,3 @@ def test_curves_and_peaks_come_back_to_the_last_bit(filled_campaign):
     [decay, _] = read_of_specimen(*filled_campaign, "prism").decays
     np.testing.assert_array_equal(free.kept.free_vibration.peaks.angle, decay.peaks.angle)
     assert free.kept.free_vibration.peaks.used.dtype == np.bool_
-
-
-def test_what_a_page_made_is_gone_after_it():
-    before = gc.get_threshold()
-    with seldom_collected():
-        figure = Figure()
-        figure.subplots()
-        made = weakref.ref(figure)
-        del figure
-        assert made() is not None  # an axes and its figure refer to each other
-    assert made() is None
-    assert gc.get_threshold() == before

@@ -169,38 +169,29 @@ def test_a_column_that_is_not_in_the_file_is_told_with_the_nearest(changes):
         find_column(RECORDING, "top", channel(**changes), None)
 
 
+GAIN = "10 mm/V"
 SAME_UNITS = [(" mm ", "mm"), ("g's", "g"), (None, "mm"), ("mm", None), (None, None)]
-LABELS = [("Acc (V)", "g", None, True), ("Acc (V)", "mV", "1 g/V", False), ("Acc [V]", "g", None, False)]
+OTHER_UNITS = [("cm", "mm", None), ("mV", "V", None), ("g", "m/s^2", None), ("counts", "mm", None), ("mV", "V", GAIN)]
+LABELS = [("Acc (V)", "g", None, False), ("Acc (V)", "mV", "1 g/V", True), ("Acc [V]", "g", None, True)]
 
 
 @every(
-    ("heading", "of_file", "of_campaign", "gain", "quiet"),
-    [*(("", *units, None, True) for units in SAME_UNITS), *((head, "V", *rest) for head, *rest in LABELS)],
-)
-def test_units_that_agree_or_are_not_given_or_a_letter_that_is_a_label_are_not_told(
-    heading, of_file, of_campaign, gain, quiet
-):
-    column = RecordedChannel("Top", of_file, VALUES, heading=heading)
-    assert (unit_findings(RECORDING, column, "top", channel(unit=of_campaign, gain=gain)) == []) is quiet
-
-
-@every(
-    ("of_file", "of_campaign", "gain", "is_told"),
+    ("heading", "of_file", "of_campaign", "gain", "is_told"),
     [
-        ("cm", "mm", None, True),
-        ("mV", "V", None, True),
-        ("g", "m/s^2", None, True),
-        ("counts", "mm", None, True),
-        ("mV", "V", "10 mm/V", True),
-        *((own, "V", "10 mm/V", False) for own in ("counts", "LSB", "Einheiten", "1")),
+        *(("Top left", *units, None, False) for units in SAME_UNITS),
+        *(("Top left", *units, True) for units in OTHER_UNITS),
+        *(("Top left", own, "V", GAIN, False) for own in ("counts", "LSB", "Einheiten", "1")),
+        *((head, "V", *rest) for head, *rest in LABELS),
     ],
 )
-def test_units_that_differ_are_serious_unless_a_recorders_own_is_explained(of_file, of_campaign, gain, is_told):
-    column = RecordedChannel("Top", of_file, VALUES, heading="Top left")
+def test_units_that_differ_are_serious_unless_a_recorders_own_is_explained_or_a_letter_is_a_label(
+    heading, of_file, of_campaign, gain, is_told
+):
+    column = RecordedChannel("Top", of_file, VALUES, heading=heading)
     found = unit_findings(RECORDING, column, "top", channel(unit=of_campaign, gain=gain))
     assert [(each.kind, each.severity) for each in found] == [("unit", "serious")] * is_told
     for each in found:
-        assert f'channel top: free-01.csv says "{of_file}" for column "Top left"' in each.text
+        assert f'channel top: free-01.csv says "{of_file}" for column "{heading}"' in each.text
 
 
 HOLED = np.array([0.0, np.nan, 1.0])

@@ -118,11 +118,3 @@ def test_bars_span_the_brackets_and_the_line_breaks_where_there_is_none():
 def test_sub_harmonic_tests_are_labelled_by_their_order_and_others_not():
     axes, _ = measured(TESTED)
     assert [text.get_text() for text in axes.texts] == ["1/2"]
-
-
-@pytest.mark.parametrize(("largest", "scale"), [(2.5, "linear"), (9.0, "log")])
-def test_amplitudes_far_apart_are_drawn_on_a_logarithmic_axis(largest, scale):
-    axes, _ = measured([*TESTED, MapPoint("i", 7.8, largest, "rocking")])
-    assert axes.get_yscale() == scale
-    assert axes.get_ylim()[0] < 0.9
-    assert axes.get_ylim()[1] > largest

@@ -6,17 +6,8 @@ from matplotlib.figure import Figure
 
 from colonnade.figures.files.output import to_png, to_svg
 from colonnade.figures.panels.curve import Curve, draw_band, draw_curve, envelope
-from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side
+from colonnade.figures.panels.layout import legend_above
 from colonnade.figures.style import styled, width
-
-
-def test_more_columns_than_fit_are_continued_below():
-    _, grid = side_by_side(COLUMNS + 1, [1.0, 0.5])
-    assert len(grid) == COLUMNS + 1
-    assert grid[COLUMNS][0].get_position().x0 == pytest.approx(grid[0][0].get_position().x0)
-    assert grid[COLUMNS][0].get_position().y1 < grid[0][1].get_position().y0
-    grid[0][0].set_ylim(-3, 3)
-    assert grid[COLUMNS][0].get_ylim() == (-3, 3)
 
 
 def noisy(samples=60_000):
