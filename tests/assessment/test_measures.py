@@ -99,6 +99,11 @@ def test_a_motion_of_no_use_has_reasons_and_no_error(values):
     assert measured.reasons
 
 
+def test_the_result_is_shown_with_units():
+    shown = repr(intensity_measures(SINE, measures=["pga", "sa(0.5 s)"]))
+    assert shown.startswith("<IntensityMeasures: PGA 3 m/s², Sa(0.5 s) ")
+
+
 @every(
     ("arguments", "message"),
     [

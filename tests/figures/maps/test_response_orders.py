@@ -1,6 +1,7 @@
 """The figure of steady responses shows their orders by colour, curves of their amplitudes, and measured points."""
 
 import numpy as np
+import pytest
 
 from colonnade.dynamics.maps import SteadyResponse
 from colonnade.figures.maps.response_orders import response_orders
@@ -37,3 +38,13 @@ def test_curves_break_where_the_order_changes_and_dots_mark_what_is_not_every_cy
     assert not any(joined)
     np.testing.assert_allclose(dots.get_xdata(), LEVELS[2:4])
     np.testing.assert_allclose(dots.get_ydata(), [0.5, 0.6])
+
+
+def test_a_block_that_nowhere_rocks_has_no_curves_and_a_single_column_is_no_map():
+    resting, one = (
+        SteadyResponse(omegas, LEVELS, *[np.zeros((omegas.size, 5), dtype=np.int8)] * 2)
+        for omegas in (OMEGAS, OMEGAS[:1])
+    )
+    assert [len(axes.lines) for axes in response_orders(resting, [], OPTIONS).axes[1:]] == [0, 0]
+    with pytest.raises(ValueError, match="at least two of each"):
+        response_orders(one, [], OPTIONS)

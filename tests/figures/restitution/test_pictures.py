@@ -92,6 +92,12 @@ def test_bars_that_would_merge_are_a_band_about_e_and_stay_in_the_table():
     np.testing.assert_allclose(low, 0.95 - 4e-3 / speed)
 
 
+def test_impacts_and_peaks_that_are_not_there_are_said():
+    without = impacts()._replace(restitution=np.full(20, np.nan))
+    figures = impact_restitution([without], level=NOTHING, rigid=0.8), peak_decay([decay(count=0)], PRISM)
+    assert [figure.axes[0].texts[0].get_text() for figure in figures] == ["no impacts", "no peaks"]
+
+
 def test_a_constant_restitution_is_a_straight_line_of_slope_two_ln_e():
     axes = peak_decay([decay()], PRISM).axes[0]
     fit = next(line for line in axes.lines if line.get_label() == "fit")
