@@ -299,13 +299,17 @@ def _factors(text: str) -> Iterator[tuple[str, int]]:
     spelled = re.sub(r"°\s*C\b", "degC", spelled).replace("°", "deg").replace(".", "*")
     if spelled in {"", "-", "1"}:
         return
-    groups, sign, expects, left = [1], 1, True, LARGEST_POWER
+    known, groups, sign, expects, left = _known(), [1], 1, True, LARGEST_POWER
     for name, exponent, mark in _TOKEN.findall(spelled):
         if name:
             power = int(exponent or 1)
             if name != "1":
+                # A name of several letters ("Volts", "KN") is taken in any case; one letter is not: M and m differ.
+                found = known.get(name) or (known.get(name.casefold()) if len(name) > 1 else None)
+                if found is None:
+                    raise _unknown(name, text)
                 left -= abs(power)
-                yield _symbol(name, text), groups[-1] * sign * power
+                yield found[0], groups[-1] * sign * power
             sign, expects = 1, False
         elif mark == "(":
             groups.append(groups[-1] * sign)
@@ -318,15 +322,6 @@ def _factors(text: str) -> Iterator[tuple[str, int]]:
             raise _unknown(text, text)
     if expects or len(groups) > 1 or left < 0:
         raise _unknown(text, text)
-
-
-def _symbol(name: str, text: str) -> str:
-    known = _known()
-    # A name of several letters ("Volts", "MM", "KN") is taken in any case; one letter is not: M and m differ.
-    found = known.get(name) or (known.get(name.casefold()) if len(name) > 1 else None)
-    if found is None:
-        raise _unknown(name, text)
-    return found[0]
 
 
 @cache
@@ -342,8 +337,7 @@ def _known() -> dict[str, tuple[str, float, dict[str, int]]]:
             each = (symbol, *names.split())
             for name in (*each, *(f"{name}s" for name in each if len(name) > 1)):
                 found.setdefault(prefix + name, (prefix.replace("u", "µ") + symbol, times * factor, powers))
-    in_any_case = {name.casefold(): unit for name, unit in reversed(found.items()) if len(name) > 1}
-    return in_any_case | found
+    return {name.casefold(): unit for name, unit in reversed(found.items()) if len(name) > 1} | found
 
 
 def _unknown(name: str, text: str) -> UnitError:
