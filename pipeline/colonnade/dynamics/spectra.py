@@ -10,7 +10,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
-from colonnade.dynamics.block import STANDARD_GRAVITY, Block, Sided
+from colonnade.dynamics.block import STANDARD_GRAVITY, Block, Side, Sided
 from colonnade.dynamics.models import NONLINEAR, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import ends_of, expect_usable
@@ -138,13 +138,8 @@ def rectangular(critical_angle: float, period: float, gravity: float = STANDARD_
     """
     period = number("period", period, "a positive number of seconds", above=0.0)
     distance = 0.75 * gravity / (2 * pi / period) ** 2
-    return Block.measured(
-        mass=1.0,
-        pole_distance=distance,
-        critical_angle=critical_angle,
-        inertia=4 / 3 * distance**2,
-        gravity=gravity,
-    )
+    side = Side(critical_angle, distance, 4 / 3 * distance**2)
+    return Block(1.0, gravity, side, side)
 
 
 def response_spectrum(

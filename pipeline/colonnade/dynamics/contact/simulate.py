@@ -10,7 +10,7 @@ import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.assembly import Assembly
-from colonnade.dynamics.block import STANDARD_GRAVITY, Block
+from colonnade.dynamics.block import STANDARD_GRAVITY, Block, Side
 from colonnade.dynamics.contact.body import DEFAULT_STEP, ContactBody, ContactLaw, Tilts, rotation_matrices
 from colonnade.dynamics.contact.history import (
     AssemblyHistory,
@@ -156,14 +156,9 @@ def simulate_assembly(
 
 def plane_block(body: ContactBody, gravity: float) -> Block:
     """Give the block whose plane rocking about y is that of a body, for its α, R, I₀ and p."""
-    distance = hypot(body.half_width, body.height)
-    return Block.measured(
-        mass=body.mass,
-        pole_distance=distance,
-        critical_angle=float(np.arctan2(body.half_width, body.height)),
-        inertia=float(body.inertia[1]) + body.mass * distance**2,
-        gravity=gravity,
-    )
+    angle, distance = float(np.arctan2(body.half_width, body.height)), hypot(body.half_width, body.height)
+    side = Side(angle, distance, float(body.inertia[1]) + body.mass * distance**2)
+    return Block(body.mass, gravity, side, side)
 
 
 def _run(
