@@ -54,8 +54,7 @@ def written(value: float | None, unit: str = "", digits: int = 4) -> str:
     >>> written(0.41234, "rad"), written(None, "rad")
     ('0.4123 rad', '–')
     """
-    shown = number(value, digits)
-    return shown if shown == NOTHING else f"{shown} {unit}".rstrip()
+    return NOTHING if value is None or not isfinite(value) else f"{number(value, digits)} {unit}".rstrip()
 
 
 def ratio(value: float | None, digits: int = 3) -> str:
@@ -91,8 +90,7 @@ def acceleration(value: float | None) -> str:
     >>> acceleration(2.3), acceleration(None)
     ('2.3 m/s² (0.235 g)', '–')
     """
-    shown = quantity(value, "m/s²")
-    return shown if shown == NOTHING else f"{shown} ({quantity(value, 'g')})"
+    return NOTHING if value is None or not isfinite(value) else f"{written(value, 'm/s²', 3)} ({quantity(value, 'g')})"
 
 
 def interval(value: float | None, low: float | None, high: float | None, level: float | None = None) -> str:
@@ -158,8 +156,7 @@ def percent(share: float | None) -> str:
     >>> percent(0.00413), percent(2.5), percent(2.2e-7)
     ('0.41\xa0%', '250\xa0%', '2.2·10⁻⁵\xa0%')
     """
-    shown = NOTHING if share is None else number(100 * share, 2)
-    return shown if shown == NOTHING else shown + PERCENT
+    return NOTHING if share is None or not isfinite(share) else number(100 * share, 2) + PERCENT
 
 
 def probability(value: float) -> str:
