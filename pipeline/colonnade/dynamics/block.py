@@ -434,15 +434,20 @@ class Block(Digested):
         both = replace(side, inertia=inertia)
         return cls(count * column.mass + mass, column.gravity, both, both, beam_ratio=ratio)
 
-    def override(self, **measured: Sided | None) -> Block:
+    def override(
+        self,
+        *,
+        critical_angle: Sided | None = None,
+        pole_distance: Sided | None = None,
+        inertia: Sided | None = None,
+    ) -> Block:
         """
         Return a block in which measured values, where given, replace the ones computed from dimensions.
 
         Parameters
         ----------
-        **measured : float or pair of float, optional
-            `critical_angle` in rad, `pole_distance` in m, `inertia` in kg m² about the pole; a pair is (for θ < 0, for
-            θ > 0).
+        critical_angle, pole_distance, inertia : float or pair of float, optional
+            α in rad, R in m, I₀ in kg m² about the pole; a pair is (for θ < 0, for θ > 0).
 
         Returns
         -------
@@ -454,8 +459,9 @@ class Block(Digested):
         >>> round(block.override(inertia=1.9).p, 3)
         5.592
         """
+        given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
         negative, positive = self.sides
-        for name, value in measured.items():
+        for name, value in given.items():
             if value is not None:
                 left, right = sided(name, value, "a positive number", above=0.0)
                 negative, positive = replace(negative, **{name: left}), replace(positive, **{name: right})
