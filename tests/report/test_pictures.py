@@ -27,14 +27,6 @@ def test_a_specimen_has_its_free_vibrations_its_spans_and_its_sine_tests(prism, 
     assert list(prism.failures) == []
 
 
-def test_a_refused_free_vibration_is_listed_with_the_peaks_that_it_has(prism):
-    sound, refused = prism.decays
-    assert any(row.recommended for row in sound.estimates)
-    assert not any(row.recommended for row in refused.estimates)
-    assert sound.peaks is not None
-    assert sound.impacts is not None
-
-
 SUBJECTS = {"test": ("free-01", "span-2.0"), "specimen": ("prism",), "campaign": ("",)}
 
 

@@ -193,10 +193,3 @@ def test_channels_that_share_too_little_are_refused(stop, words):
 def test_a_rate_that_would_fill_the_memory_is_refused_with_both_rates():
     with pytest.raises(StageError, match=r"At 1e\+07 Hz the 4 s of this test are 4e\+07 samples.*recorded at 100 Hz"):
         common({"a": record(0, 4, 100)}, rate=1e7)
-
-
-def test_a_long_record_may_be_sampled_twice_as_finely(monkeypatch):
-    monkeypatch.setattr("colonnade.stages.condition.MOST_SAMPLES", 10)
-    assert common({"a": record(0, 4, 100)}, rate=200.0).size == 801
-    with pytest.raises(StageError, match="at most 802 were expected"):
-        common({"a": record(0, 4, 100)}, rate=201.0)

@@ -73,14 +73,6 @@ def test_poles_centre_of_mass_and_dimensions_are_to_scale():
     assert across / (bounds.width * width) == pytest.approx(up / (bounds.height * height))
 
 
-def test_sides_with_different_angles_have_one_each():
-    block = Block.measured(mass=80, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.24), inertia=41.2)
-    body = Body("rectangle", (0.27, 0.27), (0.27, 0.27), 1.18, False, Rocking.of(block))
-    elevation, *_ = views(body)
-    assert {"α, θ < 0", "α, θ > 0"} <= {text.get_text() for text in elevation.texts}
-    assert elevation.patches[-1].get_linestyle() != "-"
-
-
 def test_no_dimension_crosses_the_edge_of_the_table_or_of_the_body():
     round_one = Body("circle", (0.097, 0.0755), (0.097, 0.0755), 0.48, True, Rocking.of(BLOCK))
     for body, depths in ((PRISM, {"60 mm"}), (round_one, set())):

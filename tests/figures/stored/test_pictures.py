@@ -86,13 +86,6 @@ def test_a_free_vibration_has_every_picture(reported):
     assert estimators.region(one).description.startswith("Together: e = 0.93")
 
 
-def test_another_kind_of_test_has_none(reported):
-    one = reported["span-2.0"]
-    for made in (decay.peak_series, decay.impact_series, estimators.fitted, estimators.region):
-        assert made(one) is None
-    assert estimators.estimators("estimators", {}, 0.95) is None
-
-
 def test_misfits_end_where_the_comparison_ends(reported):
     one = reported["span-3.0"]
     for model, misfit in one.misfits().items():
