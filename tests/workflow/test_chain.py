@@ -10,7 +10,7 @@ from functools import partial
 import pytest
 import xarray as xr
 
-from colonnade.errors import ColonnadeError, RunEndedError, StageError, StoreError
+from colonnade.errors import RunEndedError, StageError, StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
@@ -156,10 +156,10 @@ def test_nothing_is_written_or_removed_once_the_run_has_ended(layout):
     assert list(path.parent.iterdir()) == [path]
 
 
-def test_a_worker_that_does_not_see_the_campaign_is_told(layout):
+def test_a_worker_that_does_not_see_the_results_is_told(layout, tmp_path):
     with only_run(layout) as run_id:
-        elsewhere = chain(replace(layout, file="elsewhere.toml"), run_id, toys(layout))
-        with pytest.raises(ColonnadeError, match="does not see this"):
+        elsewhere = chain(replace(layout, results=tmp_path / "elsewhere"), run_id, toys(layout))
+        with pytest.raises(RunEndedError, match="does not see this folder"):
             bring_up_to_date(elsewhere)
 
 

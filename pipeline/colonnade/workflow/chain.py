@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import platform
 import shutil
 import time
 import traceback
@@ -181,16 +180,8 @@ def bring_up_to_date(chain: Chain) -> list[StageRun]:
     Raises
     ------
     RunEndedError
-        If the run that it belongs to has ended.
-    ColonnadeError
-        If this is a worker of a cluster that does not see the campaign's folder.
+        If the run that it belongs to has ended, or this is a worker of a cluster that does not see its folder.
     """
-    for path in (chain.layout.folder / chain.layout.file, chain.layout.processed):
-        if not path.exists():
-            raise ColonnadeError(
-                f"{path}: the worker on {platform.node()} does not see this. Folders that all of the cluster's workers "
-                "share under the same paths were expected, for the campaign and for its results (--results)."
-            )
     made: dict[Path, xr.Dataset] = {}
     runs, expect = list[StageRun](), partial(expect_run, chain.layout, chain.run_id)
     with files.only_while(expect):

@@ -97,7 +97,10 @@ def expect_run(layout: Layout, run_id: str) -> None:
         If it has ended, or another has begun.
     """
     if not _said_by(layout.lock_holder).startswith(run_id):
-        raise RunEndedError(f"{layout.home}: the run that asked for this has ended; nothing more is written for it.")
+        raise RunEndedError(
+            f"{layout.home}: the run that asked for this has ended, or {platform.node()} does not see this folder; nothing "
+            "more is written for it. A cluster's workers share it, and the campaign's, under the same paths."
+        )
 
 
 def _said_by(note: Path) -> str:

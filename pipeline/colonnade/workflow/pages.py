@@ -127,10 +127,10 @@ class Report:
         campaign, layout, forecasts = self.graph.campaign, self.graph.layout, self.forecasts
         optional = {addresses.ASSESSMENTS: bool(campaign.assessments), addresses.FORECASTS: forecasts is not None}
         places = addresses.of_campaign([page for page, is_there in optional.items() if is_there])
-        foreseen = [] if forecasts is None else [forecasts.model_dump_json()]
-        shows = [campaign.told(campaign), sorted(self.outdated), *foreseen, *map(repr, self.advice)]
-        there = {str(path.relative_to(layout.processed)): path for path in layout.results_there()}
-        contents = {name: self.graph.catalogue.content(path) for name, path in there.items()}
+        foreseen = forecasts.model_dump_json() if forecasts else None
+        shows = [campaign.told(campaign), sorted(self.outdated), foreseen, *map(repr, self.advice)]
+        content = self.graph.catalogue.content
+        contents = {str(path.relative_to(layout.processed)): content(path) for path in layout.results_there()}
         make = partial(_pages, campaign, layout, self._parts(self._asked), places, advice=self.advice)
         yield self._product("pages", json.dumps(shows), contents | self._keys, make, places)
 

@@ -102,8 +102,6 @@ class Catalogue:
             Mark and answer; None if there is no such file.
         """
         place = os.fspath(path).removeprefix(self._home)
-        if os.path.isabs(place):  # noqa: PTH117
-            place = os.path.relpath(path, self._home)  # ten times as slow
         name = " ".join([kind, place.replace(os.sep, "/"), *map(hash_of, more)])
         try:
             mark = mark_of(path)
