@@ -95,10 +95,6 @@ def whose(number):
     return number**2, os.getpid()
 
 
-def refuse(number):
-    raise ColonnadeError(f"number {number} cannot be")
-
-
 def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypatch):
     monkeypatch.setattr("colonnade.workflow.executors._PATIENCE", 1)
     with pytest.raises(ColonnadeError, match=r"has no workers\. Start some: dask worker tcp://"):
@@ -118,11 +114,6 @@ def test_all_workers_of_the_cluster_work_and_none_of_this_machine(cluster):
     processes = {process for _, (_, process) in results}
     assert len(processes) == 2
     assert os.getpid() not in processes
-
-
-def test_an_error_on_a_worker_is_told_as_here(cluster):
-    with pytest.raises(ColonnadeError, match="number 3 cannot be"):
-        list(spread(refuse, [3], Where(scheduler=cluster)))
 
 
 def test_a_worker_with_several_threads_is_refused_by_name(another_scheduler):

@@ -66,25 +66,20 @@ def test_one_without_its_appendix_takes_its_place_and_is_bundled(folder, pdf, tm
     assert pdf_of(folder).read_bytes() == whole
 
 
-def test_the_bundle_holds_the_whole_report(folder, pdf, tmp_path):
+def test_the_bundle_holds_the_whole_report_that_nobody_watches(folder, pdf, tmp_path):
     pdf_of(folder)
     pages = {path for path in (folder / "report").rglob("*") if path.is_file()}
-    foreign = folder / "report" / "tests" / "notes.html"
+    foreign, state = (folder / "report" / name for name in ("tests/notes.html", "state.js"))
     foreign.write_text("put here by somebody", encoding="utf-8")
+    unwatched = state.read_bytes()
+    state.write_text(state_script(is_watched=True, written=1.7e9, shown="1", line="free-01: rocking"), encoding="utf-8")
     with zipfile.ZipFile(bundle_of(folder, tmp_path)) as archive:
         names = set(archive.namelist())
+        assert archive.read("report/state.js") == unwatched
+    state.write_bytes(unwatched)
     foreign.unlink()
     assert names == {path.relative_to(folder).as_posix() for path in pages}
     assert {"report/index.html", "report/report.pdf"} <= names
-
-
-def test_nobody_watches_a_bundle(folder, tmp_path):
-    state = folder / "report" / "state.js"
-    before = state.read_bytes()
-    state.write_text(state_script(is_watched=True, written=1.7e9, shown="1", line="free-01: rocking"), encoding="utf-8")
-    with zipfile.ZipFile(bundle_of(folder, tmp_path)) as archive:
-        assert archive.read("report/state.js") == before
-    state.write_bytes(before)
 
 
 @pytest.mark.parametrize("write", [pdf_of, lambda folder: bundle_of(folder, folder)])

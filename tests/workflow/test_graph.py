@@ -103,12 +103,6 @@ def test_a_file_is_hashed_once_until_its_size_time_or_place_changes(untouched, s
     assert again["raw/pulse-01.csv"].sha256 == first["raw/pulse-01.csv"].sha256
 
 
-def test_a_file_that_is_not_there_has_no_hash(untouched, seen):
-    untouched.raw("pulse-01").unlink()
-    found = seen[0](Catalogue(untouched.layout))["raw/pulse-01.csv"]
-    assert found.sha256 is None
-
-
 @pytest.fixture
 def told(small):
     """Give the findings for some digests of two tests, with lines added to both entries."""

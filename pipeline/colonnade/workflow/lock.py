@@ -98,8 +98,8 @@ def expect_run(layout: Layout, run_id: str) -> None:
     """
     if not _said_by(layout.lock_holder).startswith(run_id):
         raise RunEndedError(
-            f"{layout.home}: the run that asked for this has ended, or {platform.node()} does not see this folder; nothing "
-            "more is written for it. A cluster's workers share it, and the campaign's, under the same paths."
+            f"{layout.home}: the run that asked for this has ended, or {platform.node()} does not see this folder; "
+            "nothing more is written for it. A cluster's workers share it, and the campaign's, under the same paths."
         )
 
 
