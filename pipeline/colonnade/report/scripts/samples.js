@@ -4,7 +4,9 @@ const colonnade = {};
 
 // Undo report/interactive/panels.py: inflate, join the planes of bytes, unfold the sign, add up the differences.
 colonnade.unpack = async function (given) {
-  const packed = Uint8Array.from(atob(given.samples), (letter) => letter.charCodeAt(0));
+  const letters = atob(given.samples);
+  const packed = new Uint8Array(letters.length);
+  for (let i = 0; i < packed.length; i += 1) packed[i] = letters.charCodeAt(i);
   const inflated = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const bytes = new Uint8Array(await new Response(inflated).arrayBuffer());
   let start = 0;
