@@ -51,8 +51,8 @@ def foresee(campaign: Path, asked: AskedForecast, results: Path | None, as_json:
     """
     from colonnade.workflow.foresee import foresee as make
 
-    with work_progress("Foreseeing") as progress:
-        made = make(*options.opened(campaign, results), asked, progress)
+    with work_progress("Foreseeing"):
+        made = make(*options.opened(campaign, results), asked)
     if as_json:
         show_json([{"file": path, **forecast.model_dump(by_alias=True)} for path, forecast in made.items()])
         return

@@ -150,7 +150,6 @@ def advise_free(
     """
     if pooled.attrs["restitution_source"] == "given":
         return []
-    wanted = campaign.next.restitution_width
     released = _released(pooled, tests)
     if not released:
         reason = "e is not identified, so predictions use the rigid-body value"
@@ -161,7 +160,7 @@ def advise_free(
         pooled["test_restitution"].to_numpy()[places],
         pooled["test_restitution_standard_error"].to_numpy()[places],
         angles,
-        wanted_half_width=wanted / 2,
+        wanted_half_width=campaign.next.restitution_width / 2,
         largest_release=LARGEST_RELEASE,
         level=float(pooled["level"]),
     )

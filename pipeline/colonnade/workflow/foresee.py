@@ -24,7 +24,6 @@ from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
 from colonnade.workflow.asked import AskedMotion, motion_asked_for
-from colonnade.workflow.executors import Counted
 from colonnade.workflow.graph import Graph, expect_known, one_specimen, restitution_taken
 from colonnade.workflow.product import Catalogue, stored_attributes
 
@@ -63,9 +62,7 @@ class AskedForecast(Table):
             yield ("levels",), f"{len(self.levels)} were found. A forecast of a test, here of {self.test}, has one."
 
 
-def foresee(
-    campaign: Campaign, layout: Layout, asked: AskedForecast, progress: Counted = lambda done, total: None
-) -> dict[Path, forms.ForecastFile]:
+def foresee(campaign: Campaign, layout: Layout, asked: AskedForecast) -> dict[Path, forms.ForecastFile]:
     """
     Forecast what a specimen does on a base motion, with what is known so far.
 
@@ -74,8 +71,6 @@ def foresee(
     campaign : Campaign
     layout : Layout
     asked : AskedForecast
-    progress : callable, optional
-        Called with the number of forecasts that are done and their total.
 
     Returns
     -------
@@ -106,7 +101,7 @@ def foresee(
     inputs, catalogue = inputs_of(campaign, layout, name, tilt), Catalogue(layout)
     code, there = catalogue.code(MADE_BY), _raw_files(campaign, layout, catalogue, own)
     found: dict[Path, forms.ForecastFile] = {}
-    for number, (level, factor) in enumerate(factors.items(), 1):
+    for level, factor in factors.items():
         expect_none()
         moved = Motion(factor * base.motion.acceleration, base.motion.dt * time_scale)
         forecast = forms.ForecastFile(
@@ -130,7 +125,6 @@ def foresee(
             raw_files=there,
         )
         found[write_forecast(layout, forecast)] = forecast
-        progress(number, len(factors))
     return found
 
 

@@ -234,8 +234,8 @@ def plan_of(campaign: Campaign, layout: Layout, wanted: Wanted, model: str, meas
     CampaignError
         If no map can be made so, or the model does not move the specimen.
     """
-    from colonnade.dynamics.maps import EDGE, MapPlan
-    from colonnade.dynamics.search import STEPS_A_WIDTH, WIDTH
+    from colonnade.dynamics.maps import MapPlan
+    from colonnade.dynamics.search import STEPS_A_WIDTH
 
     specimen = measured.specimen
     if model not in models_moving(campaign, specimen, (model,)):
@@ -248,11 +248,11 @@ def plan_of(campaign: Campaign, layout: Layout, wanted: Wanted, model: str, meas
     usual = USUAL_AMPLITUDE if space is None else LARGEST_AMPLITUDE_IN_SPACE
     amplitudes = wanted.amplitude or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
     grid = wanted.points or MODELS[model].map_points
-    width, edge = WIDTH, EDGE
+    scan: dict[str, float] = {}
     if space is not None:
         # Only the points of the map itself are run: an interval narrower than four of them makes no limit.
         spacing = (amplitudes[1] - amplitudes[0]) / (grid[1] - 1)
-        width, edge = STEPS_A_WIDTH * spacing, spacing / 8
+        scan = {"width": STEPS_A_WIDTH * spacing, "edge": spacing / 8}
     try:
         return MapPlan(
             campaign.block(specimen),
@@ -263,9 +263,8 @@ def plan_of(campaign: Campaign, layout: Layout, wanted: Wanted, model: str, meas
             phase=radians(wanted.phase),
             ramp=wanted.ramp,
             model=model,
-            width=width,
-            edge=edge,
             space=space,
+            **scan,
         )
     except ValueError as error:
         raise CampaignError(f"This map cannot be made: {str(error).rstrip('.')}.") from error
