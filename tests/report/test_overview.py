@@ -19,6 +19,7 @@ from colonnade.report.pictures import of_specimen, picture, span_of
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import as_dataset
+from read_pages import words_of
 
 
 @pytest.fixture
@@ -61,7 +62,7 @@ def looked_at(rows):
     return attention(rows, MODELS, groups, confusions(rows, MODELS))
 
 
-def test_each_kind_of_trouble_is_in_its_place(row_of):
+def test_each_kind_of_trouble_is_in_its_place(row_of, filled_campaign):
     serious, follows = warned("serious", "ten times off"), warned("serious", "so no e", explained=True)
     rows = [
         row_of("good", "rocking", 0.2, linear=("rocking", 0.2, {"within_spread": 0.5})),
@@ -78,6 +79,15 @@ def test_each_kind_of_trouble_is_in_its_place(row_of):
     assert [group.first.text for group in found["warnings"]] == ["it drifts"]
     assert found["outside"] == [("linear", ["missed"], pytest.approx(0.1))]  # 5 % of the two that are judged
     assert (found["explained"], found["notes"]) == (1, 1)
+    page = rendered(filled_campaign[0], "attention", "index.html", attention=found, specimens=[])[0]
+    heads = (
+        "1 test failed",
+        "Results are wrong until this is corrected",
+        "Outcomes that a model misses",
+        "All findings",
+    )
+    places = [words_of(page).find(head) for head in heads]
+    assert -1 < places[0] < places[1] < places[2] < places[3]
 
 
 def test_a_note_and_an_excluded_test_need_no_look(row_of):

@@ -155,3 +155,10 @@ def test_a_gyroscope_that_contradicts_the_others_is_left_out_and_said(measure):
     assert [str(each) for each in result.attrs["warnings"] if "not from gyroscope gyroscope" in str(each)]
     assert _rms(error) < 4e-3
     assert float(result["residual_to_reading"].sel(transducer="gyroscope")) > 1.5
+
+
+def test_positions_that_do_not_see_the_rotation_leave_it_to_the_gyroscope_and_are_said(measure):
+    result, error = measure("across", "gyroscope")
+    assert _rms(error) < 4e-3
+    unused = "the displacement transducers are not used: No transducer measures the rotation"
+    assert unused in result.attrs["separation"]

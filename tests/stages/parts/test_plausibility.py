@@ -66,6 +66,29 @@ def test_transducers_on_the_ground_are_judged_less_the_tables_displacement(small
     assert any("Channel top shows" in warning for warning in told), told
 
 
+@pytest.mark.parametrize(
+    ("named", "polarity", "said"),
+    [
+        ("valley", 1.0, ""),
+        ("Valley", -1.0, "with the other polarity"),
+        ("Lost", 1.0, 'reference motion "Lost" cannot be used'),
+    ],
+    ids=["whatever its case", "polarity", "without file"],
+)
+def test_the_motion_named_is_held_against_its_reference(named, polarity, said, small_campaign, shaken):
+    recordings, time, _, base = shaken
+    rows = "".join(f"{instant:.3f},{polarity * value:.6f}\n" for instant, value in zip(time, base, strict=True))
+    (small_campaign.folder / "valley.csv").write_text("time (s),acceleration (m/s^2)\n" + rows)
+    campaign = changed(
+        small_campaign,
+        ("[setups.frame]", '[motions]\nValley = "valley.csv"\nLost = "lost.csv"\n\n[setups.frame]'),
+        ('kind = "earthquake"', f'kind = "earthquake"\nmotion = "{named}"\ntime_scale = 1.0'),
+    )
+    told = " ".join(_doubts(campaign, "shake-01", recordings))
+    assert said in told
+    assert bool(told) == bool(said)
+
+
 def test_a_changed_reference_makes_another_result(small_campaign):
     path = small_campaign.folder / "valley.csv"
     campaign = changed(
