@@ -82,6 +82,14 @@ def test_a_statement_changes_the_code_of_those_who_import_it_and_of_no_others(pa
     assert {stage for stage in stages if of(stage) != before[stage]} == {"rocking"}
 
 
+def test_a_change_in_a_reader_makes_no_prediction_anew(package):
+    before = {stage: of(stage) for stage in ("rocking", "restitution", "contact", "predict", "ensemble")}
+    for path in (package / "readers").rglob("*.py"):
+        path.open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
+    forget()
+    assert {stage: of(stage) for stage in before} == before
+
+
 def test_a_template_a_script_or_a_style_changes_the_code_of_the_pages_alone(package):
     def of_pages():
         forget()

@@ -69,3 +69,32 @@ def test_a_damaged_block_is_done_again(tmp_path, damage):
     path.write_bytes(damage(path.read_bytes()))
     again = in_blocks(squares, BLOCKS, tmp_path, "key", Where(1))
     assert values(again) == values(first)
+
+
+KILLED = """
+import sys, time
+from pathlib import Path
+import numpy as np
+from colonnade.workflow.executors import Where, in_blocks
+def slow(block):
+    time.sleep(0.05)
+    return {"value": np.array(block)}
+told = lambda done, total: print(done, flush=True)
+in_blocks(slow, range(200), Path(sys.argv[1]), "key", Where(1, progress=told))
+"""
+
+
+def value(block):
+    return {"value": np.array(block)}
+
+
+def test_a_kill_at_any_instant_leaves_whole_blocks_only(start, tmp_path):
+    process = start(KILLED, tmp_path, said=5)
+    process.kill()
+    process.wait()
+    kept = len(list(tmp_path.rglob("*.npz")))
+    assert 5 <= kept < 200
+    started = []
+    results = in_blocks(value, range(200), tmp_path, "key", Where(1, progress=lambda *state: started.append(state)))
+    assert started[0] == (kept, 200)
+    assert [int(result["value"]) for result in results] == list(range(200))
