@@ -74,7 +74,7 @@ def last_state(model, ratio, amplitude):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("model", "least"), [("linear", 13.0), ("nonlinear", 2.0)])
+@pytest.mark.parametrize(("model", "least"), [("linear", 13.0), ("nonlinear", 3.0)])
 def test_trajectories_a_second_beside_heyoka(capsys, model, least):
     cases = rocking_cases(model)
     amplitudes = {ratio: np.array([case[1] for case in cases if case[0] == ratio]) for ratio in FREQUENCIES}

@@ -130,9 +130,7 @@ def march(
                 peak = max(peak, top / critical)
             if passing == passing:
                 passed = begin + now + passing / quickness
-            now = part.length if x == remaining else now + x / quickness
-            if work is not None:
-                sine, cosine = _turned(part, now)
+            now = part.length if x == remaining else now + x * slowness
 
             # The impact: what it leaves, and on which side the block goes on.
             if landed:
