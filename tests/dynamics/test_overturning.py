@@ -8,7 +8,8 @@ import scipy
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.pulses import RICKER_REACH, mavroeidis_papageorgiou, overturning_spectrum, ricker
-from independent_rocking import overturns
+from colonnade.laboratory.table import TableMotion
+from colonnade.laboratory.truth import simulate
 from prism import PRISM
 
 ALPHA = PRISM.critical_angle
@@ -81,17 +82,24 @@ INDEPENDENT = {
 """Reach of each pulse in ω t, and its shape."""
 
 
+SLENDER = 1e-4
+"""α at which the nonlinear equation is the linear one but for parts of α²."""
+
+
 def independent(block, pulse, model, restitution, ratio, level):
-    (reach, shape), strength = INDEPENDENT[pulse], level * math.tan(block.critical_angle)
-    reach /= ratio
-    return overturns(
-        lambda x: strength * float(shape(np.float64(ratio * x))),
-        -reach,
-        reach,
-        critical=block.critical_angle,
-        restitution=restitution,
-        nonlinear=model == "nonlinear",
-    )
+    """Whether the virtual specimen overturns, by an integrator that shares nothing with the kernels."""
+    (reach, shape), p, alpha = INDEPENDENT[pulse], block.p, block.critical_angle
+    strength = level * math.tan(alpha)
+    if model == "linear":
+        strength *= SLENDER / alpha
+        block = block_of(0.75 * 9.80665 / p**2, SLENDER)
+    middle = reach / (ratio * p)
+
+    def acceleration(piece, time):
+        return strength * block.gravity * float(shape(np.float64(ratio * p * (time - middle))))
+
+    table = TableMotion(tuple(np.linspace(0.0, 2 * middle, 33).tolist()), acceleration, np.zeros_like)
+    return simulate(block, [2 * middle + 40 / p], table, restitution=restitution).outcome == "overturned"
 
 
 def expect_both_limits(number):

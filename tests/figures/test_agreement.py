@@ -25,11 +25,6 @@ def test_each_model_has_a_panel_with_the_same_logarithmic_axes():
     assert one.get_xlim()[0] < 0.02
 
 
-def test_marks_are_at_measured_and_predicted():
-    (marks,) = panel(point(0.2, 0.3), point(0.5, 0.4)).collections
-    assert np.asarray(marks.get_offsets()).tolist() == [[0.2, 0.3], [0.5, 0.4]]
-
-
 def test_what_has_no_place_on_the_axis_is_marked_at_its_edge():
     axes = panel(point(0.2, 0.3), point(0.3, None), point(0.4, 1e-9))
     low, high = axes.get_ylim()

@@ -17,45 +17,25 @@ def history():
 
 
 @pytest.fixture(scope="module")
-def restitution(history):
-    return colonnade.identify_restitution(history.time, history.angle, PRISM)
-
-
-@pytest.fixture(scope="module")
-def chart():
-    return colonnade.stability_map(
-        PRISM, frequency_ratio=[2.0, 4.0], amplitude_ratio=np.linspace(0.8, 4.0, 5), restitution=0.93, cycles=3
-    )
-
-
-@pytest.fixture(scope="module")
-def spread():
-    pulse = np.sin(2 * np.pi * np.arange(200) / 200)
-    motion = colonnade.Motion(np.concatenate([2.5 * pulse, np.zeros(400)]), 0.01)
-    return colonnade.ensemble(PRISM, motion, uncertainty=colonnade.Uncertainty(), restitution=0.93, count=8)
-
-
-@pytest.fixture(scope="module")
-def limits():
-    return colonnade.overturning_spectrum(PRISM, "sine", frequency_ratio=[2.0, 4.0], restitution=0.93)
-
-
-@pytest.fixture(scope="module")
-def spectrum():
-    motion = colonnade.Motion(3.0 * np.sin(np.linspace(0, 2 * np.pi, 200)), 0.005)
-    return colonnade.rocking_spectrum(motion, critical_angle=[0.2, 0.4], period=[0.8, 6.0])
-
-
-@pytest.fixture(scope="module")
-def fragility():
-    pulse = np.sin(2 * np.pi * np.arange(100) / 100)
-    motions = [colonnade.Motion(np.append(pulse, 0.0), step) for step in (0.006, 0.008, 0.01, 0.012, 0.014)]
-    return colonnade.fragility(PRISM, motions, levels=np.geomspace(0.1, 3.0, 8), draws=1, resamples=100)
+def results(history):
+    pulse, steps = np.sin(2 * np.pi * np.arange(100) / 100), (0.006, 0.008, 0.01, 0.012, 0.014)
+    motions = [colonnade.Motion(np.append(pulse, 0.0), step) for step in steps]
+    strong = colonnade.Motion(np.concatenate([2.5 * pulse, np.zeros(200)]), 0.02)
+    known = {"restitution": 0.93, "frequency_ratio": [2.0, 4.0]}
+    return {
+        "history": history,
+        "restitution": colonnade.identify_restitution(history.time, history.angle, PRISM),
+        "chart": colonnade.stability_map(PRISM, amplitude_ratio=np.linspace(0.8, 4.0, 5), cycles=3, **known),
+        "spread": colonnade.ensemble(PRISM, strong, uncertainty=colonnade.Uncertainty(), restitution=0.93, count=8),
+        "limits": colonnade.overturning_spectrum(PRISM, "sine", **known),
+        "spectrum": colonnade.rocking_spectrum(strong, critical_angle=[0.2, 0.4], period=[0.8, 6.0]),
+        "fragility": colonnade.fragility(PRISM, motions, levels=np.geomspace(0.1, 3.0, 8), draws=1, resamples=100),
+    }
 
 
 @pytest.fixture(params=["history", "restitution", "chart", "spread", "limits", "spectrum", "fragility"])
-def result(request):
-    return request.getfixturevalue(request.param)
+def result(request, results):
+    return results[request.param]
 
 
 @pytest.fixture(autouse=True)

@@ -53,19 +53,6 @@ def panels(count=3, models=("linear", "nonlinear"), base=True):
     ]
 
 
-def titles(figure):
-    return [axes.get_title(loc="left") for axes in figure.axes if axes.get_title(loc="left")]
-
-
-def test_spans_stand_beside_each_other_in_their_order():
-    figure = spans_side_by_side(panels())
-    first_row = [axes for axes in figure.axes if axes.get_title(loc="left")]
-    assert titles(figure) == ["Span 1", "Span 2", "Span 3"]
-    places = [axes.get_position() for axes in first_row]
-    assert len({place.y0 for place in places}) == 1
-    assert places[0].x0 < places[1].x0 < places[2].x0
-
-
 def test_all_spans_have_the_same_scales():
     figure = spans_side_by_side(panels())
     limits = [axes.get_ylim() for axes in figure.axes]

@@ -17,46 +17,6 @@ REST_ANGLE = 1e-6
 """Of α: after an impact whose next arc would stay below it, the block rests; part of the model, so the same here."""
 
 
-def overturns(pull, begin, end, *, critical, restitution, nonlinear):
-    """
-    Tell whether a symmetric block at rest overturns.
-
-    Parameters
-    ----------
-    pull : callable
-        a/g over x = p t, smooth between `begin` and `end`, zero outside.
-    critical, restitution : float
-        α, rad; e.
-    nonlinear : bool
-    """
-    threshold = math.tan(critical) if nonlinear else critical
-    now, theta, rate = begin, 0.0, 0.0
-    while now < end:
-        if theta == 0.0 and rate == 0.0:
-            now, side = _uplift(pull, now, end, threshold)
-            if side == 0.0:
-                return False
-        else:
-            side = math.copysign(1.0, theta if theta else rate)
-
-        def rates(x, state, side=side):
-            lean = side * critical - state[0]
-            if nonlinear:
-                return np.array([state[1], -math.sin(lean) - pull(x) * math.cos(lean)])
-            return np.array([state[1], -lean - pull(x)])
-
-        now, theta, rate, landed = arc(rates, now, end, (theta, rate), side)
-        if side * theta > LIES:
-            return True
-        if landed:
-            theta, rate = 0.0, restitution * rate
-            sine, cosine = (math.sin(critical), math.cos(critical)) if nonlinear else (critical, 1.0)
-            holding = sine + math.copysign(1.0, rate) * pull(now) * cosine
-            if holding >= 0.0 and 0.5 * rate**2 <= REST_ANGLE * critical * holding:
-                rate = 0.0
-    return not _stands(theta, rate, critical, restitution, nonlinear)
-
-
 def arc(rates, t, end, state, side):
     """From t to its landing, to lying or to the end: the time, angle and velocity there, and whether it landed."""
     solver = DOP853(rates, t, np.array(state), end, rtol=2.3e-14, atol=1e-17)
@@ -73,35 +33,6 @@ def arc(rates, t, end, state, side):
                 landing = brentq(lambda x, dense=dense: dense(x)[0], looks[last - 1], looks[last], xtol=1e-17)
             return landing, 0.0, dense(landing)[1], True
     return solver.t, *solver.y, False
-
-
-def _uplift(pull, now, end, threshold):
-    """When, from `now` on, the block uplifts, and to which side."""
-    points = np.linspace(now, end, 20001)
-    over = np.abs([pull(x) for x in points]) > threshold
-    if not over.any():
-        return end, 0.0
-    index = int(np.argmax(over))
-    side = -math.copysign(1.0, pull(points[index]))
-    if index == 0:
-        return now, side
-    return brentq(lambda x: abs(pull(x)) - threshold, points[index - 1], points[index], xtol=1e-15), side
-
-
-def _stands(theta, rate, critical, restitution, nonlinear):
-    """Whether the block, left to itself, comes back: by its energy on this side and after one impact."""
-    height, climb = abs(theta), rate * (math.copysign(1.0, theta) if theta else 1.0)
-
-    def hill(angle):
-        return math.cos(critical - angle) - 1 if nonlinear else -0.5 * (critical - angle) ** 2
-
-    energy = 0.5 * climb**2 + hill(height)
-    if (height > critical and climb > 0.0) or (height <= critical and climb > 0.0 and energy > 0.0):
-        return False
-    if height > critical and energy <= 0.0:
-        return False
-    arriving = 2 * (energy - hill(0.0))
-    return 0.5 * restitution**2 * arriving + hill(0.0) <= 0.0
 
 
 @dataclass

@@ -15,7 +15,7 @@ from colonnade.figures.panels.curve import Curve
 from colonnade.report import overview
 from colonnade.report.build import rendered
 from colonnade.report.overview import HEIGHT, WIDTH, TestRow, attention, confusions, polyline, warning_groups
-from colonnade.report.pictures import of_specimen, picture, span_of
+from colonnade.report.pictures import of_specimen, picture
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import as_dataset
@@ -166,19 +166,6 @@ def test_what_was_only_seen_to_stand_agrees_with_every_outcome_but_overturning(r
     assert [(cell.predicted, cell.tests) for cell in found.wrong] == [("overturned", ("b",))]
 
 
-def test_a_model_without_a_known_outcome_has_no_table(row_of):
-    assert confusions([row_of("a", None, linear=("rocking", 0.2)), row_of("b", "rocking", 0.2)], BOTH) == []
-
-
-def test_sines_of_known_amplitude_are_in_the_ladder(rows):
-    found = {frequency: [row.id for row in tests] for frequency, tests in overview.ladder(rows).items()}
-    assert found == {"3 Hz": ["sine-3hz-too-strong-for-the-block-1"]}
-
-
-def test_one_span_alone_is_not_set_beside_itself(reported):
-    assert overview.span_groups([span_of(reported["span-2.0"])]) == []
-
-
 STRONG = "sine-3hz-too-strong-for-the-block-1"
 
 
@@ -255,15 +242,6 @@ def test_every_prediction_of_a_test_that_rocked_is_a_point_with_its_band(row_of)
     found = overview.peak_points(rows, MODELS, overview.worst(rows, MODELS))
     assert found.keys() == {"linear"}
     assert found["linear"] == [(0.4, 0.5, 0.3, 0.6, "a", 1), (0.4, None, None, None, "b", None)]
-
-
-def test_the_picture_leads_to_each_test(row_of):
-    rows = [row_of(name, "rocking", 0.4, linear=("rocking", 0.5)) for name in ("a", "b")]
-    picture = overview.peaks_picture(overview.peak_points(rows, MODELS, []))
-    assert 'role="group"' in picture.svg
-    for name in ("a", "b"):
-        assert f'<a href="test:{name}" aria-label="{name}">' in picture.svg
-    assert overview.peaks_picture({}) is None
 
 
 def points(text):

@@ -1,16 +1,11 @@
 """A test in the report: what its page shows, and its part of the pages about all tests, as text and back."""
 
-import shutil
-
 import numpy as np
 import pytest
 
-from colonnade.campaign import load
 from colonnade.report.asked import asked_of
 from colonnade.report.build import Part, drawn
 from colonnade.report.pictures import read_of_specimen, read_of_test, span_of
-from colonnade.store.layout import Layout
-from colonnade.workflow import run
 
 pytestmark = pytest.mark.whole
 
@@ -28,15 +23,6 @@ def part_of(campaign, layout, test=SHAKEN, outdated=()):
     return text, Part.of(wanted, kept)
 
 
-@pytest.fixture(scope="module")
-def started(empty_campaign, tmp_path_factory):
-    """The small campaign, of which a few tests were run up to their restitution."""
-    folder = tmp_path_factory.mktemp("started") / "campaign"
-    shutil.copytree(empty_campaign[1].folder, folder, ignore=shutil.ignore_patterns("processed", "report"))
-    run(folder, only=["free-01", SHAKEN, "sine-dead"], until="restitution", workers=1)
-    return load(folder), Layout(folder)
-
-
 @pytest.mark.parametrize(
     ("test", "has_span", "has_free_vibration"),
     [
@@ -47,8 +33,8 @@ def started(empty_campaign, tmp_path_factory):
         ("later", False, False),
     ],
 )
-def test_a_test_is_part_of_the_pages_of_its_kind(started, test, has_span, has_free_vibration):
-    _, part = part_of(*started, test)
+def test_a_test_is_part_of_the_pages_of_its_kind(filled_campaign, test, has_span, has_free_vibration):
+    _, part = part_of(*filled_campaign, test)
     assert (part.span is not None, part.kept.free_vibration is not None) == (has_span, has_free_vibration)
     if has_span:
         assert part.span.row is part.row

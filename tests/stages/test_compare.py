@@ -41,13 +41,6 @@ def against(measured, predicted, **changes):
     return compare(measured, {"linear": predicted}, inputs(**changes)).isel(model=0)
 
 
-@every("shift", [-0.2, 0.0, 0.05])
-def test_a_constant_error_is_the_nrmse_over_the_whole_record(shift):
-    found = against(history(SWING), history(SWING + shift))
-    assert float(found["nrmse"]) == pytest.approx(abs(shift), abs=1e-12)
-    assert float(found["compared_until"]) == TIME[-1]
-
-
 @every("measured_falls", [True, False])
 def test_nothing_counts_from_where_either_first_passes_the_critical_angle(measured_falls):
     falling = np.where(np.arange(TIME.size) < 120, SWING, 1.5)
@@ -57,26 +50,12 @@ def test_nothing_counts_from_where_either_first_passes_the_critical_angle(measur
     assert float(found["compared_until"]) == TIME[119]
 
 
-FIRST_HALF = np.where(np.arange(TIME.size) < 100, SWING, np.nan)
-
-
-@every(
-    ("measured", "predicted"),
-    [(np.full(TIME.size, 1.2), SWING), (FIRST_HALF, np.where(np.isnan(FIRST_HALF), SWING, np.nan))],
-)
-def test_what_is_past_the_critical_angle_from_the_start_or_never_there_together_has_no_nrmse(measured, predicted):
-    found = against(history(measured), history(predicted))
-    assert np.isnan(found["nrmse"])
-    assert np.isnan(found["compared_until"])
-
-
-def test_samples_that_are_missing_in_either_do_not_count():
+def test_samples_that_are_missing_do_not_count_and_without_any_below_the_critical_angle_there_is_no_nrmse():
     measured, predicted = SWING.copy(), SWING + 0.1
     measured[20:40], predicted[60:90] = np.nan, np.nan
-    predicted[10] += 0.3
-    counted = TIME.size - 20 - 30
-    expected = np.sqrt((0.1**2 * (counted - 1) + 0.4**2) / counted)
-    assert float(against(history(measured), history(predicted))["nrmse"]) == pytest.approx(expected)
+    assert float(against(history(measured), history(predicted))["nrmse"]) == pytest.approx(0.1)
+    fallen = against(history(np.full(TIME.size, 1.2)), history(SWING))
+    assert np.isnan([fallen["nrmse"], fallen["compared_until"]]).all()
 
 
 def test_the_measured_angle_counts_about_the_true_zero():
@@ -107,10 +86,9 @@ def test_models_stand_in_order_each_with_its_own_numbers():
         assert float(each["measured_peak_time"]) == TIME[np.argmax(np.abs(SWING))]
 
 
-def test_without_a_measured_angle_only_what_is_predicted_has_numbers():
+def test_without_a_measured_angle_nothing_has_a_number():
     found = against(unmeasured(), history(SWING), observed_outcome="rocking")
-    for name in ("nrmse", "compared_until", "peak_ratio_error", "measured_peak_ratio", "measured_peak_time"):
-        assert np.isnan(found[name]), name
+    assert np.isnan(found[["nrmse", "compared_until", "peak_ratio_error", "measured_peak_ratio"]].to_array()).all()
     assert found.attrs["warnings"] == []
 
 
@@ -160,12 +138,8 @@ def predicted(small_campaign, measured, sine_test):
 
 
 def test_the_forcing_is_the_recorded_one_and_responses_have_the_true_order(
-    small_campaign, sine_test, shaken, measured, predicted
+    small_campaign, sine_test, measured, predicted
 ):
-    _, time, angle, _ = shaken
-    late = (time > 4.5) & (time < 5.75)
-    unlike = np.std(np.interp(time[late] + 1 / FREQUENCY, time, angle) - angle[late]) / np.std(angle[late])
-    assert unlike < 0.6
     result = compared(small_campaign, sine_test, measured, predicted)
     block = small_campaign.block("prism")
     assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
@@ -174,45 +148,31 @@ def test_the_forcing_is_the_recorded_one_and_responses_have_the_true_order(
     assert result.attrs["warnings"] == []
     assert result.attrs["response_order"] == "1"
     assert "every period" in result.attrs["response_order_reason"]
-    assert result["model"].to_numpy().tolist() == ["linear", "nonlinear"]
     assert result["predicted_response_order"].to_numpy()[0] == "1"  # the linear model is the truth here
     assert float(result["impacts_per_cycle"]) == pytest.approx(2.0, abs=0.4)
 
 
-def test_another_frequency_than_the_given_one_is_told_and_the_recorded_one_used(
-    small_campaign, sine_test, measured, predicted
-):
-    wrong = sine_test.model_copy(update={"frequency": 4.1})
-    result = compared(small_campaign, wrong, measured, predicted)
-    assert "4.1 Hz" in result.attrs["warnings"][0].text
-    assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
-    near = compared(small_campaign, sine_test.model_copy(update={"frequency": 4.03}), measured, predicted)
-    assert near.attrs["warnings"] == []
+RECORDED = AMPLITUDE * PRISM.uplift_acceleration
 
 
-@pytest.mark.parametrize("ratio", [0.5, 0.87, 0.95, 1.05, 1.15, 2.0])
-def test_another_amplitude_than_the_given_one_is_told(ratio, small_campaign, sine_test, measured, predicted):
-    recorded = AMPLITUDE * small_campaign.block("prism").uplift_acceleration
-    asked = sine_test.model_copy(update={"amplitude": recorded / ratio})
-    told = [each.text for each in compared(small_campaign, asked, measured, predicted).attrs["warnings"]]
-    assert len(told) == (abs(ratio - 1) > 0.1)
-    assert all(f"{ratio:.2f} times the test's `amplitude`" in text for text in told)
-
-
-@pytest.mark.parametrize(
-    ("outcome", "words"), [("overturned", "overturned"), ("no-rocking", "did not rock"), ("", "No rocking angle")]
+@every(
+    ("asked", "said"),
+    [
+        ({"frequency": 4.1}, "4.1 Hz"),
+        ({"frequency": 4.03}, None),
+        ({"amplitude": RECORDED / 0.87}, "0.87 times the test's `amplitude`"),
+        ({"amplitude": RECORDED / 1.15}, "1.15 times the test's `amplitude`"),
+        ({"amplitude": RECORDED / 0.95}, None),
+    ],
 )
-def test_what_overturned_did_not_rock_or_was_not_measured_has_no_order(
-    outcome, words, small_campaign, sine_test, measured, predicted
+def test_another_frequency_or_amplitude_than_the_given_one_is_told_and_the_recorded_one_used(
+    asked, said, small_campaign, sine_test, measured, predicted
 ):
-    seen = (
-        measured.assign_attrs(outcome=outcome) if outcome else measured[["base_acceleration"]].assign_attrs(outcome="")
-    )
-    result = compared(small_campaign, sine_test, seen, predicted)
-    assert result.attrs["response_order"] == ""
-    assert words in result.attrs["response_order_reason"]
-    assert np.isfinite(float(result["amplitude_ratio"]))
-    assert result["predicted_response_order"].to_numpy()[0] == "1"
+    result = compared(small_campaign, sine_test.model_copy(update=asked), measured, predicted)
+    told = [each.text for each in result.attrs["warnings"]]
+    assert len(told) == (said is not None)
+    assert all(said in text for text in told)
+    assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
 
 
 def test_a_motion_that_is_no_sine_keeps_the_given_frequency_and_is_told(small_campaign, sine_test, measured, predicted):

@@ -84,13 +84,6 @@ def test_a_free_vibration_varies_with_its_first_angle_and_not_with_the_table(res
     assert float(bands["overturning_probability"]) == 0.0
 
 
-def test_the_measured_angle_is_within_the_spread_of_the_model_that_it_follows(ensemble):
-    bands = ensemble("shake-01")
-    assert is_within(float(bands["within_spread"]))
-    assert 0.02 < float(bands["peak_rank"]) < 0.98
-    assert float(bands["overturning_probability"]) == 0.0
-
-
 @pytest.mark.parametrize("factor", [1.06, 0.94], ids=["larger", "smaller"])
 def test_an_angle_that_no_run_has_is_outside(results, ensemble, factor):
     ensemble = partial(ensemble, restitution=5e-4)  # between tests; one free vibration does not show it
@@ -160,27 +153,6 @@ def test_a_measured_angle_has_the_errors_of_its_settings_and_of_its_noise(measur
     assert (found.start, found.start_error, found.start_deviation) == (None, 0.0, 0.0)
 
 
-def test_an_integrated_angle_has_the_deviation_of_its_integration_instead_of_noise():
-    deviation = 1e-4 * np.sqrt(TIME - TIME[0])
-    found = errors_of(rocking().assign(angle_deviation=("elapsed", deviation)))
-    np.testing.assert_array_equal(found.drift, deviation)
-    assert found.noise == 0.0
-
-
-def test_a_start_that_was_measured_is_as_uncertain_as_the_angle():
-    released = replace(BEGINNING, theta0=0.1)
-    found = measurement_errors(rocking(), released, inputs(free_vibration=True))
-    assert (found.start, found.start_error) == (0.1, pytest.approx(5e-4))
-    assert found.start_deviation == pytest.approx(np.sqrt((0.005 * 0.1) ** 2 + (5e-4 * ALPHA) ** 2 + 5e-4**2))
-
-
-def test_the_low_pass_is_the_lowest_of_the_transducers_on_the_specimen():
-    assert errors_of(rocking()).cutoff_hz is None
-    measured = rocking()
-    measured["rocking_angle"].attrs["cutoff_hz"] = 25.0
-    assert errors_of(measured).cutoff_hz == 25.0
-
-
 def ensemble_of(members=40, *, overturned=(), scatter=1e-3, peaks=None):
     """Runs that are the central one and a constant of their own, or reach a peak of their own (in α) once."""
     offsets = np.random.default_rng(3).normal(0, scatter, (members, 1))
@@ -225,13 +197,6 @@ def test_an_angle_like_the_runs_is_among_them_and_a_shifted_one_is_not_unless_th
     assert is_within(ranked(shifted, offset=0.05)["within_spread"])
 
 
-@every("changed", [slice(0, FIRST), slice(FIRST + 61, None)])
-def test_only_the_time_between_beginning_and_horizon_counts(changed):
-    angle = SWING.copy()
-    angle[changed] += 0.1
-    assert is_within(ranked(rocking(angle), horizon=TIME[FIRST + 60])["within_spread"])
-
-
 def test_a_specimen_that_lies_is_held_at_the_critical_angle_that_it_fell_past():
     falls = np.arange(TIME.size) > 210
     angles = np.where(falls, 1.4, SWING), np.where(falls, np.nan, SWING)
@@ -260,10 +225,6 @@ def peak_rank(ratio, overturned=(), at=100, **changes):
 )
 def test_the_rank_of_a_peak_is_the_share_of_runs_below_it(ratio, overturned, outcome, share):
     assert peak_rank(ratio, overturned, outcome=outcome) == share
-
-
-def test_peaks_within_the_noise_are_all_equal():
-    assert peak_rank(0.05, threshold=0.35 * ALPHA) == pytest.approx(3 / 8)
 
 
 def test_a_peak_before_the_prediction_begins_does_not_count():

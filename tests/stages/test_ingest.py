@@ -11,15 +11,12 @@ from hypothesis import strategies as st
 
 from chain import ingested, plain_channel
 from colonnade.campaign.review import Flagged, Review
-from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import ReadError, StageError
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.signals.quality import Flag
 from colonnade.stages.ingest import (
     IngestInputs,
-    channel_verdicts,
     contradictions,
-    dimension_of,
     find_column,
     recorded_at,
     reviewed,
@@ -194,38 +191,7 @@ def test_units_that_differ_are_serious_unless_a_recorders_own_is_explained_or_a_
         assert f'channel top: free-01.csv says "{of_file}" for column "{heading}"' in each.text
 
 
-HOLED = np.array([0.0, np.nan, 1.0])
-
-
-@every(
-    ("known", "time", "changes", "dimension"),
-    [
-        (None, FILE_TIME, {}, "elapsed"),
-        (None, FILE_TIME, {"recorder": "daq-2"}, "elapsed_daq_2"),
-        (None, FILE_TIME, {"time": "Seconds", "recorder": "daq-2"}, "elapsed_top_left"),
-        (FILE_TIME.copy(), FILE_TIME, {}, "elapsed"),
-        (FILE_TIME + 1e-9, FILE_TIME, {}, "elapsed_top_left"),
-        (FILE_TIME[:-1], FILE_TIME, {}, "elapsed_top_left"),
-        (HOLED, FILE_TIME, {}, "elapsed_top_left"),
-        (HOLED.copy(), HOLED, {}, "elapsed"),
-    ],
-)
-def test_a_channel_is_on_the_clock_of_its_recorder_or_its_own_and_shares_it_only_with_the_same_times(
-    known, time, changes, dimension
-):
-    there = {} if known is None else {"elapsed": known}
-    assert dimension_of(there, time, "top-left", channel(**changes)) == dimension
-
-
 TIME = np.arange(0.0, 10.0, 0.01)
-WAVE = np.sin(2 * np.pi * 2.0 * TIME)
-
-
-def test_clipping_is_judged_by_the_recorded_range_if_it_is_given_so():
-    recorded = np.clip(WAVE, -0.5, 0.5)
-    channel = plain_channel("acceleration", unit="g", on="table", written_range="0.5 g")
-    verdicts = channel_verdicts(TIME, recorded, 9.80665 * recorded, channel, QualitySettings())
-    assert [verdict.finding.kind for verdict in verdicts if verdict.reason] == ["end of the range"]
 
 
 def test_people_flag_a_stretch_or_a_whole_channel():
@@ -243,20 +209,8 @@ ATHENS = timezone(timedelta(hours=3))
 TEN = datetime(2013, 4, 26, 10, 15, 0)
 
 
-def recorded(*starts):
-    return {f"daq{number}": Recording(Path(f"{number}.csv"), "any", (), start) for number, start in enumerate(starts)}
-
-
-@pytest.mark.parametrize(
-    ("start", "written"),
-    [
-        (TEN, "2013-04-26 10:15:00, no time zone recorded"),
-        (TEN.replace(tzinfo=ATHENS), "2013-04-26 10:15:00+03:00"),
-        (TEN.replace(tzinfo=UTC, microsecond=125_000), "2013-04-26 10:15:00.125+00:00"),
-    ],
-)
-def test_the_time_is_written_in_its_zone_or_without_one_says_so(start, written):
-    assert recorded_at(recorded(None, start)) == written
+def recorded(start):
+    return {"daq": Recording(Path("a.csv"), "any", (), start)}
 
 
 @given(st.datetimes(datetime(1990, 1, 1), datetime(2090, 1, 1)), st.integers(-12, 14))

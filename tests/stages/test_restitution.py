@@ -18,21 +18,13 @@ def identified(small_campaign, rocking):
     return chain.identified(small_campaign, rocking)
 
 
-def test_restitution_of_a_free_vibration_is_the_true_one(identified):
+def test_restitution_of_a_free_vibration_is_the_true_one_by_both_estimators(identified):
     assert float(identified["restitution"]) == pytest.approx(0.93, abs=5e-4)
     assert identified.attrs["reason"] == ""
-    used = identified["peak_used"].to_numpy() == 1
-    fitted, seen = identified["fitted_angle"].to_numpy()[used], identified["peak_angle"].to_numpy()[used]
-    np.testing.assert_allclose(fitted, seen, atol=2e-4)
-
-
-def test_the_whole_history_agrees_with_the_peaks_and_stands_beside_them(identified):
     history, peaks = (identified.sel(estimator=name) for name in ("history", "peaks"))
     assert float(history["estimate"]) == pytest.approx(0.93, abs=3e-4)
-    assert float(history["estimate_low"]) < float(history["estimate"])
     assert float(peaks["estimate_low"]) < float(history["estimate"]) < float(peaks["estimate_high"])
     assert np.sqrt(np.nanmean(identified["history_residual"] ** 2)) < 1e-3 * 0.186
-    assert identified.attrs["estimate_reasons"] == ["", ""]
     assert identified.attrs["warnings"] == []
 
 
@@ -41,13 +33,6 @@ def test_a_wrong_inertia_is_allowed_for_and_warned_of(small_campaign, rocking):
     result = chain.identified(small_campaign, rocking, block=block)
     assert float(result["restitution"]) == pytest.approx(0.93, abs=1e-3)
     assert [warning.kind for warning in result.attrs["warnings"]] == ["frequency parameter"]
-
-
-def test_e_alpha_and_p_are_known_together(identified):
-    covariance = identified["joint_covariance"].to_numpy()
-    assert np.exp(identified["joint_mean"].to_numpy()[0]) == pytest.approx(float(identified["restitution"]), rel=1e-9)
-    assert (np.linalg.eigvalsh(covariance) >= 0).all()
-    assert covariance[1, 1] <= 0.005**2 + 1e-12
 
 
 def test_a_record_without_peaks_gives_a_reason_and_no_number(small_campaign, rocking):

@@ -1,24 +1,25 @@
 """The drawing shows each arrow where the campaign file says it is and in the direction of a positive reading."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from colonnade.campaign.channel import Channel
 from colonnade.dynamics.block import Block
-from colonnade.figures.drawing.body import GAP, TABLE
 from colonnade.figures.drawing.setup import (
-    ARROW,
     COLOURS,
     ELEVATION,
-    SIDE,
     Drawn,
     draw_transducer,
-    places_of,
     setup_drawings,
 )
-from colonnade.figures.drawing.view import Body, Rocking, View
+from colonnade.figures.drawing.view import Body, Rocking, View, _spaced
+from every import every
 
 BLOCK = Block.prism(width=0.086, depth=0.06, height=0.456, mass=26.1)
 PRISM = Body("rectangle", (0.086, 0.086), (0.06, 0.06), 0.456, True, Rocking.of(BLOCK), ("prism",))
@@ -88,81 +89,42 @@ def test_no_dimension_crosses_the_edge_of_the_table_or_of_the_body():
         assert {text.get_text() for text in side.texts if "mm" in text.get_text()} == depths
 
 
-INCH = 0.2
-
-
 def changed(**keys):
     return TOP.model_copy(update=keys)
 
 
-def drawn(one, orientation=ELEVATION, *, named=True):
-    """A view with one transducer, at its place or at the middle of the specimen."""
-    figure = Figure(figsize=(4, 4))
-    view = View.within(figure, (0.0, 0.0, 4.0, 4.0), (4.0, 4.0), orientation, INCH, (2.0, 1.0))
-    draw_transducer(view, 3, "top", one, one.at or (0.0, 0.0, 0.2), named=named)
+def drawn(one, *, named=True):
+    """A view with one transducer at its place."""
+    view = View.within(Figure(figsize=(4, 4)), (0.0, 0.0, 4.0, 4.0), (4.0, 4.0), ELEVATION, 0.2, (2.0, 1.0))
+    draw_transducer(view, 3, "top", one, one.at, named=named)
     return view
 
 
-def lengths(view):
-    return [np.subtract(text.xy, text.xyann) for text in view.axes.texts if text.get_text() == ""]
+@given(st.lists(st.floats(-1.0, 11.0), max_size=9))
+def test_labels_stay_apart_and_within_the_view(wanted):
+    placed = _spaced(sorted(wanted), 1.0, 0.0, 10.0)
+    assert len(placed) == len(wanted)
+    assert all(after - before >= 1.0 - 1e-9 for before, after in pairwise(placed))
+    assert all(-1e-9 <= each <= 10.0 + 1e-9 for each in placed)
 
 
-def test_without_a_place_they_are_on_the_face_of_what_they_follow_and_accelerometers_on_top():
-    def places(on, quantity="displacement", number=1):
-        one = Channel.model_construct(quantity=quantity, on=on, direction=(1.0, 0.0, 0.0))
-        found = places_of(dict.fromkeys(map(str, range(number)), one), PRISM, 0.15, INCH)
-        return found.values()
-
-    assert list(places("specimen", number=2)) == [
-        pytest.approx((0.043, 0.0, 0.75 * 0.456)),
-        pytest.approx((0.043, 0.0, 0.25 * 0.456)),
-    ]
-    ((across, _, up),) = places("table", "acceleration")
-    assert -0.15 < across < -0.043
-    assert 0 < up < 0.1 * INCH
-    ((_, _, low),) = places("table")
-    assert -TABLE * INCH < low < 0
-    ((_, _, low),) = places("ground", "acceleration")
-    assert low == pytest.approx(-(TABLE + GAP) * INCH)
-
-
-def test_a_direction_out_of_the_paper_is_shorter_and_one_at_right_angles_is_a_mark():
-    (arrow,) = lengths(drawn(changed(direction=(0.6, 0.8, 0.0))))
-    assert arrow == pytest.approx((0.6 * ARROW * INCH, 0.0))
-    through = drawn(TOP, SIDE)
-    assert lengths(through) == []
-    assert "." in [line.get_marker() for line in through.axes.lines]
-
-
-@pytest.mark.parametrize("relative_to", ["table", "ground", None])
-def test_its_colour_says_what_a_reading_is_relative_to(relative_to):
-    view = drawn(changed(relative_to=relative_to))
-    assert view.axes.lines[-1].get_color() == COLOURS[relative_to or ""]
-    assert view.labels[0][3] == COLOURS[relative_to or ""]
-
-
-@pytest.mark.parametrize(
-    ("one", "detail"),
+@every(
+    ("one", "detail", "relative_to"),
     [
-        (TOP, "displacement, to table"),
-        (changed(quantity="angular_velocity", relative_to=None), "angular velocity"),
-        (changed(on="ground", quantity="acceleration", relative_to=None), "acceleration of ground"),
-        (changed(direction=None), "displacement, to table, direction ?"),
+        (TOP, "displacement, to table", "table"),
+        (changed(quantity="angular_velocity", relative_to=None), "angular velocity", ""),
+        (changed(on="ground", quantity="acceleration", relative_to=None), "acceleration of ground", ""),
+        (changed(direction=None, relative_to="ground"), "displacement, to ground, direction ?", "ground"),
     ],
-    ids=["to the table", "absolute", "of the ground", "without a direction"],
 )
-def test_its_label_says_what_it_reads(one, detail):
-    assert drawn(one).labels[0][1:3] == ("3 top", detail)
+def test_its_label_says_what_it_reads_in_the_colour_of_what_that_is_relative_to(one, detail, relative_to):
+    assert drawn(one).labels[0][1:] == ("3 top", detail, COLOURS[relative_to])
     assert drawn(one, named=False).labels[0][1:3] == ("3", "")
 
 
-def test_a_wire_ends_at_its_anchor():
-    view = drawn(changed(anchor=(0.3, 0.0, 0.42)))
-    wire = view.axes.lines[0]
+def test_a_wire_ends_at_its_anchor_and_a_laser_looks_along_its_direction_at_a_face():
+    wire = drawn(changed(anchor=(0.3, 0.0, 0.42))).axes.lines[0]
     assert (list(wire.get_xdata()), list(wire.get_ydata())) == ([0.043, 0.3], [0.44, 0.42])
-
-
-def test_a_laser_looks_along_its_direction_at_a_face():
     view = drawn(changed(sensing="surface", direction=(-1.0, 0.0, 0.0), normal=(1.0, 0.0, 0.0)))
     sight, face = view.axes.lines[:2]
     assert sight.get_xdata()[1] > 0.043  # from outside

@@ -43,12 +43,6 @@ def test_a_rigid_body_value_far_away_does_not_squeeze_the_estimates(rigid, told)
     assert told in [text.get_text() for text in axes.texts]
 
 
-def test_a_refusal_by_all_estimators_has_no_scale():
-    axes = estimators_side_by_side({"": [NOTHING]}, rigid=0.95).axes[0]
-    assert axes.get_xticks().size == 0
-    assert [text.get_text() for text in axes.texts] == ["impact by impact", "none"]
-
-
 def impacts(title="free-01", *, count=20, error=1e-3, used=True):
     velocity = np.linspace(2.0, 0.2, count)
     e = 0.95 + 0.002 * np.sin(np.arange(count))
@@ -104,13 +98,6 @@ def test_a_constant_restitution_is_a_straight_line_of_slope_two_ln_e():
     slopes = np.diff(np.log(fit.get_ydata()))
     assert slopes == pytest.approx(2 * np.log(0.95), rel=1e-9)
     assert axes.get_yscale() == "log"
-
-
-def test_tests_side_by_side_have_the_same_scales():
-    figure = peak_decay([decay(f"free-{k}", count=10 + 10 * k) for k in range(4)], PRISM)
-    assert len({(axes.get_xlim(), axes.get_ylim()) for axes in figure.axes}) == 1
-    assert len(figure.axes) == 4
-    assert figure.axes[0].get_xlim()[1] >= 40
 
 
 def test_an_asymmetric_block_scales_each_side_by_its_own_angle():

@@ -94,24 +94,3 @@ def test_measured_and_each_model_move(moving):
 def test_without_an_angle_nothing_moves(moving):
     assert moving("later") is None
     assert moving("span-2.0", without=("predict", "rocking")) is None
-
-
-def test_it_shows_what_the_page_shows_the_zero_taken_off_on_a_base_that_moves(reported):
-    one = reported["span-2.0"]
-    compared = one.stored.datasets["compare", None].assign(zero_offset=0.02)
-    one = replace(one, stored=replace(one.stored, datasets=one.stored.datasets | {("compare", None): compared}))
-    movie = animation(one)
-    times, ratio = one.measured_ratio()
-    frames = np.linspace(times[0], times[-1], movie.frames)
-    frame = int(np.nanargmax(np.interp(frames, times, ratio)))
-    movie.show(frame)
-    lower = movie.figure.axes[0].patches[0].get_xy()[:2]
-    leaned = np.arctan2(*(lower[0] - lower[1])[::-1]) - np.pi  # of the base's edge, which lies along x at rest
-    expected = np.interp(frames, times, ratio * one.block.critical_angle_at(ratio))
-    assert abs(np.angle(np.exp(1j * leaned))) == pytest.approx(abs(expected[frame]), rel=1e-6)
-    (table,) = movie.figure.axes[0].lines
-    places = []
-    for each in range(movie.frames):
-        movie.show(each)
-        places.append(table.get_xdata()[0])
-    assert 1e-4 < np.ptp(places) < 0.5

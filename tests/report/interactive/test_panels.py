@@ -14,13 +14,6 @@ from colonnade.report.interactive import panels
 from colonnade.report.interactive.panels import LONG, Samples, packed, script, tables_of
 
 
-def test_equal_clocks_and_equal_series_are_kept_once():
-    samples, time, values = Samples(), np.arange(5.0), np.array([1.0, np.nan, 3.0])
-    assert [samples.clock(time), samples.clock(time + 1), samples.clock(time.copy())] == [0, 1, 0]
-    assert [samples.add(values), samples.add(values + 1), samples.add(values.copy())] == [0, 1, 0]
-    assert len(samples.series) == 2
-
-
 def test_uneven_times_are_kept_as_they_are():
     samples, time = Samples(), np.array([0.0, 1.0, 2.5, 3.0, 4.0])
     samples.clock(time)

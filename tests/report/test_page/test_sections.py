@@ -3,11 +3,8 @@
 import pytest
 
 from colonnade.campaign.forms.summary import PredictionSummary
-from colonnade.figures.restitution.estimators import estimate_rows
 from colonnade.report.test_page import channels, page
-from colonnade.report.test_page.facts import known
 from colonnade.report.test_page.page import verdict_sentence
-from colonnade.units.text import NOTHING
 
 
 def found_of(reported, name):
@@ -48,22 +45,6 @@ def test_a_few_flagged_samples_are_told_from_many(reported):
 )
 def test_a_clock_is_given_in_milliseconds_and_its_drift_in_millionths(given, written):
     assert channels._clock(given) == written
-
-
-def test_the_recommended_estimator_gives_the_value_with_its_interval(reported):
-    one = reported["free-01"]
-    facts = dict(page.facts_of(one))
-    assert facts["e"].startswith("0.930")
-    assert " ± 0.0" in facts["e"]
-    assert "refused" not in facts
-    (chosen,) = (each for each in estimate_rows(one.stored) if each.recommended)
-    assert facts["from"] == chosen.name
-    assert "interval" not in chosen.text
-
-
-def test_what_is_not_known_or_has_no_label_is_left_out_and_the_order_stays():
-    facts = [("b", "2 mm"), ("", "3 mm"), ("c", ""), ("d", NOTHING), ("a", "0 mm")]
-    assert known(facts) == [("b", "2 mm"), ("a", "0 mm")]
 
 
 def predicted(horizon, rank, peak_rank, overturning):

@@ -16,7 +16,7 @@ from colonnade.stages.parts.beginning import (
     base_acceleration,
 )
 from colonnade.stages.parts.reference_motions import load, reference_files
-from colonnade.stages.parts.transducers import Transducers, axes, base_motion
+from colonnade.stages.parts.transducers import Transducers, base_motion
 from every import every
 from prism import PRISM
 
@@ -92,11 +92,6 @@ def test_a_prediction_from_a_peak_between_two_samples_is_not_late(small_campaign
     assert np.abs(late).max() < 0.15 * every * float(time[1])
 
 
-def test_a_zero_offset_of_a_restitution_that_was_refused_is_not_used(small_campaign, rocking, predicted):
-    refused = chain.identified(small_campaign, rocking).assign(restitution=((), np.nan), zero_offset=((), 0.01))
-    assert float(predicted(rocking, refused)["zero_offset"]) == 0.0
-
-
 def test_a_measured_peak_is_that_of_the_time_that_is_predicted(small_campaign, released, predicted, compared):
     _, rocking = measured(small_campaign, "free-01", released(E, overshoot=0.05)[0])
     prediction = predicted(rocking)
@@ -118,15 +113,6 @@ def test_a_table_that_moves_drives_the_prediction_of_a_free_vibration(small_camp
     driven, free = (float(compared(rocking, each)["nrmse"][0]) for each in (prediction, unmoved))
     assert driven < 0.02
     assert free > 5 * driven
-
-
-def test_the_noise_of_an_accelerometer_moves_no_table(rocking, predicted):
-    assert float(rocking["base_acceleration"].std()) > 0.0
-    prediction = predicted(rocking)
-    assert prediction.attrs["driven_by"] == AT_REST
-    assert not prediction["base_acceleration"].to_numpy().any()
-    without = predicted(rocking.drop_vars("base_acceleration"))
-    np.testing.assert_array_equal(prediction["rocking_angle"], without["rocking_angle"])
 
 
 def test_it_is_driven_as_its_restitution_is(small_campaign, rocking, predicted):
@@ -206,11 +192,6 @@ def test_without_a_usable_accelerometer_the_displacement_is_differentiated():
     middle = slice(100, -100)
     np.testing.assert_allclose(base["base_acceleration"][middle], -(OMEGA**2) * SWELL[middle], atol=0.02 * OMEGA**2)
     assert [(warning.kind, warning.severity) for warning in warnings] == [("derived base motion", "note")]
-
-
-def test_an_axis_that_was_not_recorded_does_not_move():
-    moved = axes({"vertical_base_acceleration": SWELL}, "acceleration", LONGER)
-    np.testing.assert_array_equal(moved, [0 * LONGER, 0 * LONGER, SWELL])
 
 
 def test_one_of_three_components_has_to_be_named(small_campaign):
