@@ -29,6 +29,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 from pydantic import ValidationError
 
@@ -151,7 +152,9 @@ class Reader:
 
     def _execute(self, block):
         out = io.StringIO()
-        with contextlib.chdir(self.folder), contextlib.redirect_stdout(out), importable(self.folder):
+        # Modules in this folder can be imported, as by a Python that was started in it.
+        importable = mock.patch.object(sys, "path", [str(self.folder), *sys.path])
+        with contextlib.chdir(self.folder), contextlib.redirect_stdout(out), importable:
             if block.text.startswith(">>> "):
                 test = doctest.DocTestParser().get_doctest(block.text, self.names, block.place, None, None)
                 results = doctest.DocTestRunner().run(test, out=out.write, clear_globs=False)
@@ -160,16 +163,6 @@ class Reader:
             else:
                 exec(compile(block.text, block.place, "exec"), self.names)
         return out.getvalue()
-
-
-@contextlib.contextmanager
-def importable(folder):
-    """Modules in this folder can be imported, as by a Python that was started in it."""
-    sys.path.insert(0, str(folder))
-    try:
-        yield
-    finally:
-        sys.path.remove(str(folder))
 
 
 def make_targets():

@@ -35,27 +35,17 @@ class Page(HTMLParser):
         self.words += " " if tag in ("td", "th", "li", "dd", "dt", "br") else ""
         if tag not in VOID:
             self._open.append(tag)
-        self._attributes(attrs)
         self.scripts += [value for name, value in attrs if tag == "script" and name == "src"]
-
-    def handle_startendtag(self, tag, attrs):
-        self.tags[tag] += 1
-        self._attributes(attrs)
+        self.attributes.update(name for name, _ in attrs)
+        self.ids += [value for name, value in attrs if name == "id"]
+        self.links += [value for name, value in attrs if name in ("href", "src")]
 
     def handle_endtag(self, tag):
-        assert self._open.pop() == tag
+        assert tag in VOID or self._open.pop() == tag
 
     def handle_data(self, data):
         if self._open and self._open[-1] not in ("style", "script"):
             self.words += data
-
-    def _attributes(self, attrs):
-        for name, value in attrs:
-            self.attributes[name] += 1
-            if name == "id":
-                self.ids.append(value)
-            if name in ("href", "src"):
-                self.links.append(value)
 
 
 def built(campaign, layout, outdated=frozenset(), **options):

@@ -39,32 +39,21 @@ SAMPLES_A_CYCLE = 100
 
 
 @dataclass(frozen=True)
-class Sine:
-    """How long a sine lasts at full amplitude, and each of its ramps, in cycles."""
-
-    cycles: float = 1.0
-    ramp: float = 0.0
-
-
-@dataclass(frozen=True)
 class Truth:
-    """A true prism on a true table: e, factors of α, p and of the amplitude, and how the table moves."""
+    """A true prism on a true table, which moves by one sine cycle: e, factors of α, p and of the amplitude."""
 
     restitution: float
     critical_angle: float
     p: float
     gain: float
-    sine: Sine
 
     @classmethod
-    def drawn(cls, seed, sine):
+    def drawn(cls, seed):
         """Draw the truth of a seed; e is wrong upwards for even seeds and downwards for odd ones."""
         rng = np.random.default_rng([seed, 1])
         angle, p = np.exp(WRONG_BLOCK * rng.standard_normal(2))
         sign = 1 if seed % 2 == 0 else -1
-        return cls(
-            RESTITUTION + sign * WRONG_RESTITUTION, angle, p, float(np.exp(WRONG_GAIN * rng.standard_normal())), sine
-        )
+        return cls(RESTITUTION + sign * WRONG_RESTITUTION, angle, p, float(np.exp(WRONG_GAIN * rng.standard_normal())))
 
     @cached_property
     def block(self):
@@ -77,10 +66,7 @@ class Truth:
     def _run(self, frequency, amplitude_ratio, drawn):
         phase, restitution, tilt, gain = drawn * (PHASE, RESTITUTION_SCATTER, TILT, GAIN)
         dt = 1 / (frequency * SAMPLES_A_CYCLE)
-        rise, end = self.sine.ramp / frequency, (self.sine.cycles + 2 * self.sine.ramp) / frequency
-        time = np.arange(round(end / dt) + 1) * dt
-        level = np.ones_like(time) if rise == 0 else np.minimum(1.0, np.minimum(time, end - time) / rise)
-        acceleration = level * np.sin(2 * pi * frequency * time + phase)
+        acceleration = np.sin(2 * pi * np.arange(SAMPLES_A_CYCLE + 1) / SAMPLES_A_CYCLE + phase)
         factor = amplitude_ratio * self.gain * np.exp(gain) * PRISM.uplift_acceleration
         motion = Motion(np.append(factor * acceleration, 0.0), dt)
         history = rock(
@@ -121,15 +107,15 @@ def _tilted(block, tilt):
     return Block(block.mass, block.gravity, *sides, block.solid)
 
 
-def predicted_limits(sine, restitution=RESTITUTION, frequencies=FREQUENCIES):
+def predicted_limits(restitution=RESTITUTION, frequencies=FREQUENCIES):
     """`lower` of the linear model's map at the frequencies of the tests."""
     chart = stability_map(
         PRISM,
         frequency_ratio=2 * pi * np.array(frequencies) / PRISM.p,
         amplitude_ratio=[0.9, 9.0],
         restitution=restitution,
-        cycles=sine.cycles,
-        ramp=sine.ramp,
+        cycles=1.0,
+        ramp=0.0,
         model="linear",
     )
     return chart.lower

@@ -29,7 +29,7 @@ import pytest
 from joblib import Parallel, delayed
 
 from colonnade.identification.boundary import BETWEEN, SineTests, advise_sine_tests
-from virtual_sines import FREQUENCIES, RESTITUTION, WRONG_RESTITUTION, Sine, Truth, predicted_limits
+from virtual_sines import FREQUENCIES, RESTITUTION, WRONG_RESTITUTION, Truth, predicted_limits
 
 WANTED = 0.05
 MOST_TESTS = 60
@@ -43,13 +43,9 @@ METHODS = ("advice", "bisection")
 WRONG = "wrong by 20 %"
 """Upwards for half of the seeds of each sign of the error of e, downwards for the others."""
 
-ONE_CYCLE = Sine(cycles=1.0, ramp=0.0)
 
-
-def sensitivities(sine, frequencies):
-    more, less = (
-        predicted_limits(sine, RESTITUTION + sign * WRONG_RESTITUTION, frequencies=frequencies) for sign in (1, -1)
-    )
+def sensitivities(frequencies):
+    more, less = (predicted_limits(RESTITUTION + sign * WRONG_RESTITUTION, frequencies) for sign in (1, -1))
     return np.log(more / less) / 2
 
 
@@ -87,9 +83,9 @@ def campaign(truth, seed, predicted, sensitivity, frequencies, method):
     return intervals, np.array([len(each.overturned) for each in tests])
 
 
-def run_seed(seed, sine, predicted, sensitivity, priors, methods):
+def run_seed(seed, predicted, sensitivity, priors, methods):
     """Methods on one truth, with the predictions as they are or wrong by 20 %; the true boundaries first."""
-    truth = Truth.drawn(seed, sine)
+    truth = Truth.drawn(seed)
     true = [truth.boundary(frequency, near) for frequency, near in zip(FREQUENCIES, predicted, strict=True)]
     run = partial(campaign, truth, seed, sensitivity=sensitivity, frequencies=FREQUENCIES)
     return np.array(true), {
@@ -100,10 +96,10 @@ def run_seed(seed, sine, predicted, sensitivity, priors, methods):
     }
 
 
-def study(seeds, sine=ONE_CYCLE, priors=("as predicted", WRONG), methods=METHODS):
+def study(seeds, priors=("as predicted", WRONG), methods=METHODS):
     """Whether held (seeds, frequencies), width of the intervals, and numbers of tests, by prior and method."""
-    predicted, sensitivity = predicted_limits(sine), sensitivities(sine, FREQUENCIES)
-    found = Parallel(n_jobs=2)(delayed(run_seed)(seed, sine, predicted, sensitivity, priors, methods) for seed in seeds)
+    predicted, sensitivity = predicted_limits(), sensitivities(FREQUENCIES)
+    found = Parallel(n_jobs=2)(delayed(run_seed)(seed, predicted, sensitivity, priors, methods) for seed in seeds)
     true = np.array([each for each, _ in found])
     result = {}
     for key in found[0][1]:
@@ -136,9 +132,9 @@ def test_with_predictions_as_they_are_the_intervals_of_every_single_frequency_ho
 
 def test_two_frequencies_of_one_campaign_are_found_with_fewer_tests_than_by_bisection():
     frequencies = (3.0, 4.0)
-    predicted = predicted_limits(ONE_CYCLE, frequencies=frequencies)
-    truth = Truth.drawn(1000, ONE_CYCLE)
-    run = partial(campaign, truth, 1000, predicted, sensitivities(ONE_CYCLE, frequencies), frequencies)
+    predicted = predicted_limits(frequencies=frequencies)
+    truth = Truth.drawn(1000)
+    run = partial(campaign, truth, 1000, predicted, sensitivities(frequencies), frequencies)
     intervals, tests = run("advice")
     true = [truth.boundary(*each, draws=20) for each in zip(frequencies, predicted, strict=True)]
     assert (intervals[:, 1] / intervals[:, 0] - 1 <= WANTED).all()

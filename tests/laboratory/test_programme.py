@@ -1,5 +1,6 @@
 """What the virtual laboratory plans: records, kinds of test, the paper's programme and its file formats."""
 
+import time
 from collections import Counter
 from dataclasses import replace
 from math import sqrt
@@ -10,6 +11,7 @@ import pytest
 from colonnade import campaign
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
+from colonnade.laboratory.files import MATLAB, TDMS, Sheet
 from colonnade.laboratory.programme import (
     QUIET,
     RELEASES,
@@ -65,9 +67,9 @@ def test_a_sine_reaches_its_multiple_of_g_tan_alpha_between_its_ramps(frequency)
     assert trial.entry == {"frequency": f"{frequency:g} Hz"}
     assert trial.table.stop == pytest.approx(QUIET + 10 / frequency)
     assert trial.duration == pytest.approx(trial.table.stop + 4.0)
-    time = np.linspace(QUIET + 2 / frequency, QUIET + 8 / frequency, 2401)
+    steady = np.linspace(QUIET + 2 / frequency, QUIET + 8 / frequency, 2401)
     amplitude = 1.4 * PRISM.gravity * np.tan(PRISM.critical_angle)
-    assert np.abs(trial.table.acceleration(time)).max() == pytest.approx(amplitude, rel=1e-12)
+    assert np.abs(trial.table.acceleration(steady)).max() == pytest.approx(amplitude, rel=1e-12)
     assert not trial.table.acceleration(np.linspace(0.0, QUIET - 1e-9, 50)).any()
 
 
@@ -79,8 +81,7 @@ def test_an_earthquake_is_played_at_three_spans_and_in_the_models_time():
         # Times of a 1:20 model are shorter by √20, accelerations are not: similitude of Froude.
         assert trial.table.stop - QUIET == pytest.approx(RECORD.duration / sqrt(20), rel=1e-9)
         assert trial.duration == pytest.approx(trial.table.stop + 9.0)
-        time = QUIET + RECORD.time / sqrt(20)
-        played = trial.table.acceleration(time)
+        played = trial.table.acceleration(QUIET + RECORD.time / sqrt(20))
         assert np.abs(played).max() == pytest.approx(1.5 * span, rel=0.05)
         assert np.corrcoef(played, RECORD.acceleration)[0, 1] > 0.999
         assert trial.spikes == 3
@@ -98,6 +99,15 @@ def test_every_specimen_has_three_free_vibrations_three_spans_and_sines(plan):
         assert counted[specimen, "sine"] >= 7
     frequencies = {trial.entry["frequency"] for trial in plan.trials if trial.kind == "sine"}
     assert frequencies == {f"{hertz} Hz" for hertz in range(1, 8)}
+
+
+@pytest.mark.parametrize("written", [TDMS, MATLAB], ids=["tdms", "matlab"])
+def test_the_same_sheet_gives_the_same_bytes_at_another_time(written, monkeypatch):
+    clock = np.arange(1000) / 400.0
+    sheet = Sheet(clock, 400.0, {"top": ("V", np.sin(clock))}, np.datetime64("2013-05-14T09:00:00", "us"))
+    first = written.content(sheet)
+    monkeypatch.setattr(time, "asctime", lambda *_: "Thu Jan  1 00:00:00 1970")
+    assert written.content(sheet) == first
 
 
 SUFFIXES = {"prism": (".csv", ".csv"), "cylinder": (".tdms", ".csv"), "cone": (".mat", ".tdms")}

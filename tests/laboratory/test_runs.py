@@ -12,7 +12,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.errors import CampaignError, StoreError
 from colonnade.laboratory.files import GERMAN, FileFormat
-from colonnade.laboratory.plan import Plan, Recorder, Trial
+from colonnade.laboratory.plan import TESTS_A_DAY, Plan, Recorder, Trial, begun
 from colonnade.laboratory.programme import COLUMNS, CYCLES, LADDERS, LASTING, MARGIN, RAMP, RAMPS, RESTITUTION, sine
 from colonnade.laboratory.runs import START_SCATTER, run_test, write
 from colonnade.laboratory.table import Imperfections, ramped_sine
@@ -171,6 +171,14 @@ def test_a_folder_that_is_not_free_is_refused_and_left_alone(there, error, said,
     with pytest.raises(error, match=said):
         write(plan_in_text(), tmp_path)
     assert (tmp_path / there).read_text() == "schema = 1\n"
+
+
+def test_tests_follow_each_other_on_working_days_between_nine_and_four():
+    moments = [begun(position) for position in range(10 * TESTS_A_DAY)]
+    assert moments == sorted(set(moments))
+    assert len({moment.date() for moment in moments}) == 10
+    assert np.is_busday([moment.date() for moment in moments]).all()
+    assert {moment.hour for moment in moments} == set(range(9, 16))
 
 
 def test_several_processes_write_what_one_writes(tmp_path):

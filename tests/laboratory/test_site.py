@@ -25,15 +25,13 @@ def test_it_has_its_arias_intensity_and_in_the_mean_its_duration(made):
     assert np.mean([each["d5_95"] for each in found]) == pytest.approx(9.0, rel=0.1)
 
 
-def test_its_energy_is_in_its_band(made):
+def test_its_energy_is_in_its_band_and_it_comes_to_rest(made):
     power = np.mean([np.abs(np.fft.rfft(each, 4096)) ** 2 for each in made], axis=0)
     frequency = np.fft.rfftfreq(4096, STEP)
     inside = (frequency > LOWEST) & (frequency < 6.0)
     assert power[inside].sum() / power.sum() > 0.8
     assert power[frequency < LOWEST / 4].max() < 0.05 * power[inside].mean()
 
-
-def test_it_comes_to_rest(made):
     assert max(intensity_measures(Motion(each, STEP), measures=["pgv"]).drift for each in made) < 0.01
 
 
@@ -53,13 +51,10 @@ def suite():
     return synthetic_records(3, seed=4)
 
 
-def test_a_record_is_the_same_whatever_the_count(suite):
+def test_a_record_is_the_same_whatever_the_count_and_every_third_has_a_pulse(suite):
     alone = synthetic_records(1, seed=4)[0]
     np.testing.assert_array_equal(alone.motion.acceleration, suite[0].motion.acceleration)
     assert synthetic_records(1, seed=5)[0].motion.peak != alone.motion.peak
-
-
-def test_every_third_has_a_pulse(suite):
     assert [each.pulse_period is not None for each in suite] == [False, False, True]
     assert all(intensity_measures(each.motion, measures=["pgv"]).reasons == {} for each in suite)
 

@@ -17,7 +17,6 @@ GRAVITY = 9.81
 RADIUS, HEIGHT = 0.0485, 0.1
 CYLINDER = Block.cylinder(diameter=2 * RADIUS, height=HEIGHT, mass=1.0)
 SQUAT = Block.prism(width=0.5, depth=0.3, height=0.1, mass=10.0)
-LEVEL = np.zeros(3)
 
 
 def _rest(duration, intervals=100):

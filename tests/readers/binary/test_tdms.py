@@ -28,10 +28,6 @@ def written(path, *segments):
     return path
 
 
-def two_columns(path):
-    return written(path, *([sampled("a", np.arange(10.0) + number), sampled("b", [1.0] * 10)] for number in range(3)))
-
-
 def test_values_unit_and_clock_come_from_the_channels_own_properties(path):
     values = np.sin(np.arange(200) / 7)
     recording = read(written(path, [sampled("Messung/LVDT 1", values, 0.005, unit_string="mm")]))
