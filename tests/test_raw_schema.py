@@ -25,6 +25,7 @@ from every import every
 
 ROOT = Path(__file__).resolve().parents[1]
 RAW_SCHEMA = ROOT / "raw_schema"
+README = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", ["campaign", "summary", "review", "forecast"])
@@ -37,8 +38,7 @@ def test_schema_file_is_what_the_command_writes(name, capsys):
 
 @pytest.mark.parametrize("table", [CampaignFile, Setup, Channel, one_test.Test], ids=lambda table: table.__name__)
 def test_the_data_dictionary_names_every_key(table):
-    dictionary = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
-    assert [key for key in table.purposes() if f"`{key}" not in dictionary] == []
+    assert [key for key in table.purposes() if f"`{key}" not in README] == []
 
 
 def test_every_format_has_a_worked_example():
@@ -80,9 +80,8 @@ def test_the_pulse_is_the_same_in_every_format(name):
 
 
 def test_the_format_of_the_readme_works_as_it_stands(tmp_path):
-    text = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
     module = {}
-    exec(text.split("```python\n")[1].split("```")[0], module)
+    exec(README.split("```python\n")[1].split("```")[0], module)
     path = tmp_path / "record.bbx"
     path.write_bytes(b"BBX1" + np.array([200, 0.5, -0.25, 1], dtype="<f4").tobytes())
     blackbox = module["FORMAT"]
@@ -109,8 +108,7 @@ def test_the_delimited_example_gives_the_restitution_it_was_made_with():
 
 
 def section(name):
-    page = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
-    return re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)[1]
+    return re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", README, re.MULTILINE | re.DOTALL)[1]
 
 
 def test_the_contract_has_every_command():

@@ -54,25 +54,14 @@ def _cases(records, levels, draws):
     )
 
 
-def _place(cases, case):
-    """Where a case is in the arrays of outcomes."""
-    return np.unravel_index(int(case), cases.shape)
-
-
-def _inputs(cases, chosen):
-    """What the kernel needs of some cases, made beforehand."""
-    inputs = []
+def _kernel(cases, chosen):
+    """Processor time of the kernel alone for some cases, s, with all that it takes prepared."""
+    ready = []
     for case in chosen:
-        record, level, which, _sign, place = _place(cases, case)
+        record, level, which, _sign, place = np.unravel_index(int(case), cases.shape)
         motion = in_plane(cases.motions[record], place, float(cases.factors[record, level, place]))
-        base = motion.acceleration / BLOCK.gravity
-        inputs.append((base, *drawn_column(cases.column, cases.draws[record, which])))
-    return inputs
-
-
-def _kernel(inputs):
-    """Processor time of the kernel alone, s, with all that it takes prepared."""
-    ready = [(forcing_of(Motion(base, INTERVAL), 1.0), sides_of(block, e)) for base, block, e in inputs]
+        block, e = drawn_column(cases.column, cases.draws[record, which])
+        ready.append((forcing_of(Motion(motion.acceleration / BLOCK.gravity, INTERVAL), 1.0), sides_of(block, e)))
     propagate(*ready[0], is_linearised=False)
     begin = time.process_time()
     for forcing, sides in ready:
@@ -106,7 +95,7 @@ def test_a_million_histories_take_little_more_than_the_kernels_own_time(tmp_path
     cases = _cases(50, 20, 500)
     assert math.prod(cases.shape) == 1_000_000
     chosen = np.random.default_rng(0).choice(1_000_000, 10_000, replace=False)
-    kernel = 100.0 * _kernel(_inputs(cases, chosen))
+    kernel = 100.0 * _kernel(cases, chosen)
     command = [sys.executable, "-c", MILLION, str(tmp_path)]
     ended = subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
     found = json.loads(ended.stdout)

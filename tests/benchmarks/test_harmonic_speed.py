@@ -11,8 +11,6 @@ installed by the extra `bench`.
 """
 
 import math
-import time
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -106,29 +104,3 @@ def test_trajectories_a_second_beside_heyoka(capsys, model, least):
     assert len(cases) >= 50
     assert np.median(errors["own"]) <= max(np.median(errors["heyoka"]), 1e-12)
     assert theirs / seconds > least
-
-
-@pytest.mark.slow
-def test_a_map_of_a_million_points(capsys):
-    ratios, amplitudes = np.linspace(1.1, 7.8, 1000), np.linspace(0.7, 9.0, 1000)
-
-    def column(ratio):
-        return outcomes_of(
-            amplitudes,
-            block=PRISM,
-            forcing=Harmonic.cycles(ratio * P, 20).forcing(),
-            restitution=(RESTITUTION,) * 2,
-            model="linear",
-        )
-
-    column(2.0)
-    seconds, busy, maps = {}, {}, {}
-    for threads in (1, 2):
-        begin, used = time.perf_counter(), time.process_time()
-        with ThreadPoolExecutor(threads) as pool:
-            maps[threads] = np.stack(list(pool.map(column, ratios)))
-        seconds[threads], busy[threads] = time.perf_counter() - begin, time.process_time() - used
-    with capsys.disabled():
-        for threads, elapsed in seconds.items():
-            print(f"\n10⁶ points, 20 cycles, {threads} thread(s): {elapsed:.1f} s, of processor {busy[threads]:.1f} s")
-    np.testing.assert_array_equal(maps[1], maps[2])

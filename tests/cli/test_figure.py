@@ -46,6 +46,7 @@ def test_the_list_has_every_figure(colonnade):
         (("impacts",), '"impacts" is a figure of a'),
         (("fitted", "span-2.0"), 'span-2.0: there is nothing to draw for "fitted". It needs a free vibration'),
         (("agreement", "prism"), 'is a figure of a campaign, not of "prism".'),
+        (("angle", "sine-dead"), 'sine-dead: there is nothing to draw for "angle". ingest: '),
         (("estimators", "prism", "--width", "single"), "not legible in a single column"),
         (("angle", "span-2.0", "--out", "a.jpg"), 'unknown ending ".jpg"'),
         (("angle", "span-2.0", "--data", "a.txt"), 'unknown ending ".txt"'),

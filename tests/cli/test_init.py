@@ -37,25 +37,20 @@ def test_a_newcomer_gets_from_raw_files_to_a_restitution(colonnade, raw):
     assert restitution["low"] <= 0.95 <= restitution["high"]
 
 
-def test_what_is_asked_is_listed_with_its_line(colonnade, raw):
-    told = colonnade("init", "--json")
-    found = json.loads(told.stdout)
-    lines = (raw / "campaign.toml").read_text(encoding="utf-8").splitlines()
-    assert all('"?' in lines[number - 1] for number in found["open"])
-    assert found["tests"] == 2
-
-
 def test_the_folder_of_the_raw_files_itself_will_do(colonnade, raw):
     assert colonnade("init", "raw").returncode == 0
     assert 'file = "free-01.csv"' in (raw / "raw" / "campaign.toml").read_text(encoding="utf-8")
 
 
-def test_the_draft_is_drawn_next_to_it(colonnade, raw):
+def test_the_draft_is_drawn_next_to_it_and_what_is_asked_is_listed_with_its_line(colonnade, raw):
     told = colonnade("init")
     assert f"drawing: {raw / 'drawing.svg'}\n" in told.stdout
     assert ">1 top<" in (raw / "drawing.svg").read_text(encoding="utf-8")
     (raw / "campaign.toml").unlink()
-    assert json.loads(colonnade("init", "--json").stdout)["drawing"] == str(raw / "drawing.svg")
+    found = json.loads(colonnade("init", "--json").stdout)
+    assert (found["drawing"], found["tests"]) == (str(raw / "drawing.svg"), 2)
+    lines = (raw / "campaign.toml").read_text(encoding="utf-8").splitlines()
+    assert all('"?' in lines[number - 1] for number in found["open"])
 
 
 def test_a_drawing_of_yours_stays_and_then_no_draft_is_written(colonnade, raw):

@@ -12,6 +12,7 @@ import pytest
 from colonnade.cli import invoke
 from colonnade.cli.app import COMMANDS, app
 from every import every
+from processes import started, wait_until
 
 pytestmark = pytest.mark.whole
 
@@ -45,6 +46,8 @@ def test_every_command_has_help_with_an_example(colonnade, command):
         (("run", "nowhere"), 2, "campaign.toml"),
         (("init",), 2, "it exists already and was not changed"),
         (("init", "nowhere"), 2, "nowhere"),
+        (("report", "--no-appendix"), 2, "add --pdf"),
+        (("demo", "--motion", "record.txt"), 2, "record.txt"),
         (("init", "empty"), 2, "empty"),
         (("demo", "."), 2, "was not written by the virtual laboratory"),
         (("next",), 1, "Run `colonnade run` first"),
@@ -58,6 +61,7 @@ def test_every_command_has_help_with_an_example(colonnade, command):
 )
 def test_what_cannot_be_done_is_said_and_leaves_campaign_files(colonnade, campaign, arguments, code, said):
     (campaign / "empty").mkdir(exist_ok=True)
+    (campaign / "record.txt").write_text("no number here\n", encoding="utf-8")
     before = {path: path.read_bytes() for path in campaign.rglob("*.toml")}
     told = colonnade(*arguments)
     assert told.returncode == code
@@ -93,17 +97,6 @@ def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
     assert "? rad" in told.stdout
 
 
-def started(folder, *arguments, **options):
-    command, pipe = [sys.executable, "-m", "colonnade", *arguments], subprocess.PIPE
-    return subprocess.Popen(command, cwd=folder, stdout=pipe, stderr=pipe, encoding="utf-8", **options)
-
-
-def await_path(path):
-    deadline = time.monotonic() + 60.0
-    while not path.exists() and time.monotonic() < deadline:
-        time.sleep(0.02)
-
-
 @posix
 @pytest.mark.parametrize(
     ("send", "sent"),
@@ -114,8 +107,8 @@ def await_path(path):
 )
 @pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign, send, sent):
-    running = started(campaign, "run", "--workers", "2", start_new_session=True)
-    await_path(campaign / "processed")
+    running = started("run", "--workers", "2", cwd=campaign, start_new_session=True)
+    wait_until((campaign / "processed").exists)
     time.sleep(0.5)
     getattr(os, send)(running.pid, sent)
     _, complaints = running.communicate(timeout=60)
@@ -128,8 +121,8 @@ def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign,
 @posix
 @pytest.mark.usefixtures("interruptible")
 def test_ending_a_watch_is_no_error(campaign):
-    watching = started(campaign, "watch", "--workers", "1")
-    await_path(campaign / "report" / "state.js")
+    watching = started("watch", "--workers", "1", cwd=campaign)
+    wait_until((campaign / "report" / "state.js").exists)
     watching.send_signal(signal.SIGHUP)
     _, complaints = watching.communicate(timeout=60)
     assert (watching.returncode, complaints) == (0, "The watch has ended. All results are kept.\n")

@@ -7,10 +7,6 @@ import zipfile
 import pytest
 
 
-def times(folder):
-    return {path: path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()}
-
-
 @pytest.mark.whole
 def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report_is(colonnade, campaign, changed):
     told = colonnade("run", "--workers", "1")
@@ -26,12 +22,12 @@ def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report
     assert "never run" not in told.stdout
     assert told.stdout.endswith(f"report: {campaign / 'report' / 'index.html'}\n")
 
-    before = times(campaign)
+    before = snapshot(campaign)
     again = colonnade("run", "--workers", "1")
     assert again.returncode == 0
     assert again.stdout.startswith("The linear model predicts")
     assert "\n0 redone" in again.stdout
-    assert times(campaign) == before
+    assert snapshot(campaign) == before
 
     changed("raw/free-02.csv", "\n0.000000;", "\n0.000100;")
     third = json.loads(colonnade("run", "--workers", "1", "--json").stdout)
@@ -84,12 +80,6 @@ def test_strict_makes_warnings_an_exit_code_and_notes_do_not_count(command, colo
     assert "warning (lost samples): free-01: channel top: 1 gap in time, about 5 samples lost" in told.stdout
 
 
-def test_an_appendix_is_left_out_of_a_pdf_only(colonnade):
-    refused = colonnade("report", "--no-appendix")
-    assert refused.returncode == 2
-    assert "add --pdf" in refused.stderr
-
-
 @pytest.mark.whole
 def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_path):
     asked = ("report", "--workers", "1", "--pdf", "--bundle", "all.zip")
@@ -98,14 +88,15 @@ def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_pat
     assert told.stdout.endswith(f"pdf: {campaign / 'report' / 'report.pdf'}\nbundle: all.zip\n")
     with zipfile.ZipFile("all.zip") as archive:
         assert "report/report.pdf" in archive.namelist()
-    before = times(campaign)
+    before = snapshot(campaign)
     said = json.loads(colonnade(*asked, "--json").stdout)
     assert (said["pdf"], said["bundle"]) == (str(campaign / "report" / "report.pdf"), "all.zip")
-    assert {path for path, time in times(campaign).items() if time != before[path]} <= {campaign / "all.zip"}
+    assert {path for path, time in snapshot(campaign).items() if time != before[path]} <= {campaign / "all.zip"}
 
 
 def snapshot(folder):
-    return {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
+    """What is in a folder, and the time of each file."""
+    return {path: path.is_file() and path.stat().st_mtime_ns for path in folder.rglob("*")}
 
 
 def test_a_good_campaign_passes_and_nothing_is_written(colonnade, campaign):
@@ -137,33 +128,6 @@ def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, 
     assert 'free-02.csv: no column is called "top"' in told.stdout
     assert 'Did you mean "tops"?' in told.stdout
     assert told.stdout.startswith("2 tests: 2 would fail. Nothing")
-
-
-def test_a_campaign_file_that_cannot_be_used_is_exit_code_2(colonnade, changed):
-    changed("campaign.toml", '"86 mm", depth', '"86 mn", depth')
-    told = colonnade("check")
-    assert told.returncode == 2
-    assert "specimens.prism.width" in told.stderr
-    assert "Traceback" not in told.stderr
-
-
-def test_a_table_without_names_is_asked_for_its_layout(colonnade, campaign, changed):
-    changed("campaign.toml", 'column = "top"', "column = 8")
-    changed("campaign.toml", "\n[setups.frame.ch", '\n[setups.frame]\nsampling_rate = "200 Hz"\n\n[setups.frame.ch')
-    for name in ("free-01", "free-02"):
-        raw = campaign / "raw" / f"{name}.csv"
-        values = [line.replace(";", ",").split(",")[1] for line in raw.read_text().splitlines()[1:]]
-        raw.write_text("\n".join(" ".join(values[row : row + 8]) for row in range(0, len(values), 8)) + "\n")
-    told = colonnade("check")
-    assert told.returncode == 1
-    assert "would fail: free-01: " in told.stdout
-    said = " ".join(told.stdout.split())
-    assert 'Say which in `file`: layout = "columns" or layout = "running".' in said
-    changed("campaign.toml", '"200 Hz"', '"200 Hz"\nfile = {layout = "running"}')
-    said = " ".join(colonnade("check").stdout.split())
-    assert "column 8 is missing; it has 1 column." in said
-    changed("campaign.toml", "column = 8", "column = 1")
-    assert colonnade("check").returncode == 0
 
 
 def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, with_gain):

@@ -22,14 +22,18 @@ def test_one_test_is_shown_by_its_id_with_or_without_the_campaign(colonnade, cam
     assert "free-02" not in told.stdout
 
 
-def test_settings_show_the_campaigns_value_beside_the_default(colonnade, changed):
-    changed("campaign.toml", '"26.10 kg"}', '"26.10 kg"}\n[processing]\nlowpass = "25 Hz"')
-    lowpass = json.loads(colonnade("show", "settings", "--json").stdout)["processing.lowpass"]
-    assert (lowpass["value"], lowpass["default"], lowpass["unit"]) == (25.0, "auto", "Hz")
-
-
 def test_settings_without_a_campaign_are_the_defaults(colonnade):
     assert "processing.restitution.level" in colonnade("show", "settings").stdout
+
+
+def test_settings_show_the_campaigns_value_beside_the_default_one_a_line_without_trailing_spaces(colonnade, changed):
+    changed("campaign.toml", '"26.10 kg"}', '"26.10 kg"}\n[processing]\nlowpass = "25 Hz"')
+    settings = json.loads(colonnade("show", "settings", "--json").stdout)
+    lowpass = settings["processing.lowpass"]
+    assert (lowpass["value"], lowpass["default"], lowpass["unit"]) == (25.0, "auto", "Hz")
+    lines = colonnade("show", "settings").stdout.splitlines()
+    assert len(lines) == 1 + len(settings)
+    assert all(line == line.rstrip() for line in lines)
 
 
 def test_every_format_says_what_it_is_and_how_its_files_end(colonnade):
@@ -39,12 +43,6 @@ def test_every_format_says_what_it_is_and_how_its_files_end(colonnade):
     assert {"delimiter", "decimal", "encoding"} <= known["delimited"]["options"].keys()
     told = colonnade("show", "formats").stdout
     assert all(name in told for name in known)
-
-
-def test_a_table_that_is_piped_has_one_line_a_row_without_trailing_spaces(colonnade, campaign):
-    lines = colonnade("show", "settings").stdout.splitlines()
-    assert len(lines) == 1 + len(json.loads(colonnade("show", "settings", "--json").stdout))
-    assert all(line == line.rstrip() for line in lines)
 
 
 @pytest.mark.parametrize("text", ["", "[]", "[" * 100_000, '{"tests": 3}'], ids=["empty", "a list", "nested", "others"])

@@ -10,9 +10,12 @@ import subprocess
 import sys
 import time
 from collections import Counter
+from functools import partial
 
 import psutil
 import pytest
+
+from processes import wait_until
 
 pytestmark = [
     pytest.mark.drill,
@@ -63,10 +66,8 @@ def is_there(process):
 
 
 def wait_for_the_end_of(processes):
-    until = time.monotonic() + PATIENCE
-    while any(map(is_there, processes)):
-        assert time.monotonic() < until, f"still there: {[each for each in processes if is_there(each)]}"
-        time.sleep(0.02)
+    there = partial(filter, is_there, processes)
+    wait_until(lambda: not any(there()), PATIENCE, lambda: f"still there: {[*there()]}")
 
 
 def pages(small):

@@ -2,11 +2,11 @@
 
 import random
 import shutil
-import subprocess
-import sys
 import time
 
 import pytest
+
+from processes import started
 
 pytestmark = pytest.mark.drill
 
@@ -14,24 +14,14 @@ ROUNDS = 5
 SEED = 3
 
 
-def started(folder):
-    """A run, as from a terminal."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "colonnade", "run", str(folder), "--workers", "2"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
 def test_of_two_runs_at_once_one_works_and_the_other_is_refused(undisturbed, copied, tmp_path, capsys):
     expected, summary, chance = undisturbed.contents(), undisturbed.summary(), random.Random(SEED)
     refused = 0
     for number in range(ROUNDS):
         small = copied(tmp_path / str(number))
-        runs = [started(small.folder)]
+        runs = [started("run", small.folder, "--workers", 2)]
         time.sleep(chance.uniform(0.0, 1.0))
-        runs.append(started(small.folder))
+        runs.append(started("run", small.folder, "--workers", 2))
         ended = [(run, *run.communicate(timeout=300)) for run in runs]
         assert sorted({0, *(run.returncode for run, _, _ in ended)}) in ([0], [0, 1])
         assert any(run.returncode == 0 for run, _, _ in ended)

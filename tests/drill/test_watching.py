@@ -18,6 +18,7 @@ import pytest
 
 import deliveries
 from colonnade.workflow import run
+from processes import wait_until
 
 pytestmark = pytest.mark.drill
 
@@ -63,10 +64,7 @@ class Watch:
         return found
 
     def wait_for(self, tests):
-        until = time.monotonic() + PATIENCE
-        while not tests <= self.last.keys():
-            assert time.monotonic() < until, f"no line on {sorted(tests - self.last.keys())[:5]}"
-            time.sleep(0.1)
+        wait_until(lambda: tests <= self.last.keys(), PATIENCE, lambda: f"no line on {tests - self.last.keys()}")
 
 
 @contextmanager
@@ -131,18 +129,17 @@ def test_files_that_arrive_in_all_ways_get_their_lines(polled, tmp_path, capsys)
         after = watch.process.cpu_times()
         idle = (after.user + after.system - before.user - before.system) / 20
         closed, broken = deliver(folder, FILES, chance)
-        watch.wait_for(set(closed))
-        until = time.monotonic() + PATIENCE
-        while len(first_after := watch.first_after(closed)) < len(closed):
-            assert time.monotonic() < until, f"no line on {sorted(closed.keys() - first_after.keys())[:5]}"
-            time.sleep(0.2)
+
+        def missing():
+            return closed.keys() - watch.first_after(closed).keys()
+
+        wait_until(lambda: not missing(), 2 * PATIENCE, lambda: f"no line on {missing()}", pause=0.2)
+        first_after = watch.first_after(closed)
         assert {name for name in closed if watch.last[name]["status"] == "failed"} == broken
         seconds = sorted(first_after[name] - closed[name] for name in closed if name not in broken)
         # What is not done yet is done by the run behind; then nothing is left for another one.
-        state, until = folder / "report" / "state.js", time.monotonic() + 20 * PATIENCE
-        while not is_all_done(folder, closed, broken):
-            assert time.monotonic() < until
-            time.sleep(2.0)
+        state = folder / "report" / "state.js"
+        wait_until(lambda: is_all_done(folder, closed, broken), 20 * PATIENCE, pause=2.0)
         memory = watch.process.memory_info().rss / 1e6
     assert '"watched": false' in state.read_text(encoding="utf-8")
     failures = [line["test"] for _, line in watch.lines if line["status"] == "failed" and line["test"] not in broken]
@@ -198,10 +195,7 @@ def test_nothing_is_lost_when_the_watch_is_killed(tmp_path, capsys):
         watch.process.kill()
         watch.process.wait()
     with watching(folder) as watch:
-        until = time.monotonic() + 20 * PATIENCE
-        while not is_all_done(folder, dict.fromkeys(names, 0.0), set()):
-            assert time.monotonic() < until
-            time.sleep(1.0)
+        wait_until(lambda: is_all_done(folder, names, set()), 20 * PATIENCE, pause=2.0)
     assert all(stage.action != "done" for stage in run(folder, workers=2).stages)
     assert not list(folder.rglob("*.partial"))
     with capsys.disabled():

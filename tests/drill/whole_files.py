@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -12,7 +11,6 @@ import h5py
 import numpy as np
 import scipy.io
 
-sys.path.append(str(Path(__file__).parents[1] / "helpers"))  # where this is run by a script
 from raw_files import COLUMNS, WRITERS, as_matlab_73, tdm
 from workbooks import ROWS, SAMPLES, ods, xls, xlsx
 
@@ -77,10 +75,6 @@ WHOLE: dict[str, tuple[str, Callable[[Path], object]]] = {
     "diadem tdm": (".TDM", tdm),
 }
 """By name, of which the first word is the format: the suffix, and what writes it. A companion is beside it."""
-
-
-DRILLED = [name for name in WHOLE if name != "waveform"]
-"""Waveforms are parsed by other people's code alone, and drilled where that is made."""
 
 
 def write(name: str, folder: Path) -> Path:

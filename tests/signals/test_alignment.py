@@ -71,24 +71,13 @@ def _record(time, values):
     return even_record(time, values, np.full(time.size, Flag.GOOD, dtype=np.int8))
 
 
-def _pair(motion, delay, *, seed=0, sign=1.0):
+def _linked(delay, *, sign=1.0, longest=1.0, frequency=None):
     """A motion as two recorders have it, the second late and perhaps with the other sign."""
-    rng = np.random.default_rng(seed)
-    return [
+    motion, rng = _ramped(frequency) if frequency else _shaken, np.random.default_rng(1)
+    records = [
         _record(time, factor * motion(time - late) + rng.normal(0, 0.01, time.size))
         for time, late, factor in ((np.arange(0, 12, 1 / 500), 0.0, 1.0), (np.arange(0, 12, 1 / 400), delay, sign))
     ]
-
-
-def test_records_that_share_no_time_are_refused():
-    pair = _record(TIME, np.sin(TIME)), _record(TIME + 50, np.sin(TIME))
-    with pytest.raises(ValueError, match="share 0 samples"):
-        link(*pair, quantities=ACCELERATIONS, longest=1.0, sign=1.0)
-
-
-def _linked(delay, *, sign=1.0, longest=1.0, frequency=None):
-    motion = _ramped(frequency) if frequency else lambda time: 0.3 + np.interp(time, TIME, SHAKEN)
-    records = _pair(motion, delay, seed=1, sign=sign)
     return link(*records, quantities=ACCELERATIONS, longest=longest, sign=1.0)
 
 
@@ -97,6 +86,10 @@ def _ramped(frequency):
 
 
 SHAKEN = np.gradient(np.gradient(_earthquake(0.0), INTERVAL), INTERVAL)
+
+
+def _shaken(time):
+    return 0.3 + np.interp(time, TIME, SHAKEN)
 
 
 @pytest.mark.parametrize("delay", [1.3, -1.2])

@@ -97,7 +97,7 @@ def test_other_versions_of_el_centro_are_told_from_the_one_named(name, said, sha
     assert re.search(said, told)
 
 
-def test_a_motion_is_laid_on_its_record_with_delay_and_factor():
+def test_a_motion_is_laid_on_its_record_with_delay_and_factor_and_another_is_not():
     usual = _record(VALLEY, gain=1.7)
     record = Series(-usual.acceleration, usual.interval)
     laid = laid_on(record, Series(VALLEY, STEP), time_scale=SCALE)
@@ -105,7 +105,4 @@ def test_a_motion_is_laid_on_its_record_with_delay_and_factor():
     assert laid.correlation < -0.95
     misfit = record.acceleration - laid.acceleration
     assert np.std(misfit) < 0.15 * np.std(record.acceleration)
-
-
-def test_another_motion_is_not_laid_on_a_record():
-    assert laid_on(_record(VALLEY), Series(_motion(99), STEP), time_scale=SCALE) is None
+    assert laid_on(record, Series(_motion(99), STEP), time_scale=SCALE) is None

@@ -31,7 +31,8 @@ def _digitised(values, full_scale, seed=0, noise=5e-4):
     return np.round(noisy / step) * step
 
 
-ROCKING = np.interp(TIME, *(lambda h: (h.time, h.angle))(rock(PRISM, restitution=0.95, theta0=0.1, duration=8.0)))
+FREE = rock(PRISM, restitution=0.95, theta0=0.1, duration=8.0)
+ROCKING = np.interp(TIME, FREE.time, FREE.angle)
 MOTIONS = {
     "rocking": _digitised(0.44 * np.sin(ROCKING), 0.1),
     "sine at 7 Hz": _digitised(3 * np.sin(14 * np.pi * TIME), 20.0),
@@ -183,9 +184,7 @@ def test_peaks_and_rest_are_no_saturation(what):
     assert check_rails(TIME_RAILS, UNSATURATED[what]).reason == ""
 
 
-RELEASED = np.interp(
-    TIME - 1.5, *(lambda h: (h.time, h.angle))(rock(PRISM, restitution=0.95, theta0=0.1, duration=8.0))
-)
+RELEASED = np.interp(TIME - 1.5, FREE.time, FREE.angle)
 """Held tilted for a second and a half, then let go, rad."""
 
 FALL = np.where(TIME > 4.0, 1e-3 * np.expm1(PRISM.p * np.clip(TIME - 4.0, 0, None)), 0.02 * np.sin(9 * TIME))

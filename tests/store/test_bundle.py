@@ -46,14 +46,6 @@ def test_the_same_report_gives_the_same_bytes_whatever_its_times(folder, tmp_pat
     assert (tmp_path / "one.zip").read_bytes() == (tmp_path / "two" / "other.zip").read_bytes()
 
 
-def test_a_text_replaces_a_file_and_is_there_without_one(folder, tmp_path):
-    texts = {"index.html": "another", "state.js": "unwatched"}
-    write_bundle(folder, tmp_path / "all.zip", own=OWN, instead=texts)
-    with zipfile.ZipFile(tmp_path / "all.zip") as archive:
-        assert archive.namelist() == ["report/index.html", "report/state.js", "report/tests/a.html"]
-        assert {name: archive.read(f"report/{name}").decode() for name in texts} == texts
-
-
 def test_what_is_not_of_the_report_or_leads_elsewhere_stays_out(folder, tmp_path):
     (tmp_path / "secret").write_text("secret")
     (folder / "link.html").symlink_to(tmp_path / "secret")

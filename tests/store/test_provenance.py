@@ -33,9 +33,6 @@ def test_what_is_not_known_is_left_out():
 def test_a_record_tells_how_long_it_is_and_how_fine():
     found = coverage(xr.Dataset(coords={"elapsed": np.arange(0, 3, 0.5)}))
     assert found == {"time_coverage_duration": "PT2.5S", "time_coverage_resolution": "PT0.5S"}
-
-
-def test_a_result_without_a_clock_has_no_coverage():
     assert coverage(xr.Dataset({"restitution": 0.9})) == {}
 
 

@@ -3,7 +3,6 @@
 import pytest
 
 from colonnade.campaign import load
-from colonnade.errors import CampaignError
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps import Wanted, make_maps
 
@@ -18,11 +17,6 @@ def give(campaign):
     contact = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
     campaign.edit("[setups.frame.channels]", f"[processing.predict]\n{contact}\n\n[setups.frame.channels]")
     campaign.edit(BODY, GIVEN)
-
-
-def test_a_restitution_is_needed(untouched):
-    with pytest.raises(CampaignError, match="Run `colonnade identify` first"):
-        calibrate(load(untouched.folder), untouched.layout)
 
 
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):

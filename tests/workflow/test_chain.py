@@ -15,7 +15,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin
 from colonnade.store.results import ResultId
-from colonnade.workflow.chain import Chain, bring_up_to_date, worker_lost
+from colonnade.workflow.chain import Chain, bring_up_to_date
 from colonnade.workflow.executors import WorkersEndedError
 from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.product import Product, stored_attributes
@@ -72,12 +72,15 @@ def there(layout):
     return {path.name: files.read(path).attrs.get("toy") for path in layout.test("toy").glob("*.nc")}
 
 
-def test_all_is_made_in_its_order_once(layout):
+def test_all_is_made_in_its_order_once_and_a_damaged_result_again(layout):
     assert ran(layout) == [("done", "never run")] * 3
     assert there(layout) == {"recorded.nc": 120, "conditioned.nc": 12, "rocking.nc": 1}
     before = {path: path.stat().st_mtime_ns for path in layout.test("toy").iterdir()}
     assert ran(layout) == [("up-to-date", "")] * 3
     assert {path: path.stat().st_mtime_ns for path in layout.test("toy").iterdir()} == before
+    path = layout.stage("toy", "condition")
+    path.write_bytes(path.read_bytes()[:1000])
+    assert ran(layout) == [("up-to-date", ""), ("done", "never run"), ("up-to-date", "")]
 
 
 @pytest.mark.parametrize(
@@ -86,22 +89,16 @@ def test_all_is_made_in_its_order_once(layout):
         ({"value": 121}, [("done", "settings changed"), ("done", "upstream changed"), ("up-to-date", "")]),
         ({"value": 130}, [("done", "settings changed"), ("done", "upstream changed"), ("done", "upstream changed")]),
         ({"code": "two"}, [("done", "code changed")] * 3),
+        ({"value": 130, "code": "two"}, [("done", "settings changed"), *[("done", "upstream changed")] * 2]),
         ({"asked": STAGES[1:]}, [("up-to-date", ""), ("done", "asked for"), ("done", "asked for")]),
     ],
-    ids=["equal values stop the cascade", "other values go on", "code", "asked for"],
+    ids=["equal values stop the cascade", "other values go on", "code", "values before code", "asked for"],
 )
 def test_what_changed_is_made_again_and_why_is_told(layout, change, told):
     ran(layout)
     assert ran(layout, **change) == told
     change.pop("asked", None)
     assert ran(layout, **change) == [("up-to-date", "")] * 3
-
-
-def test_a_damaged_result_is_made_again_and_nothing_else(layout):
-    ran(layout)
-    path = layout.stage("toy", "condition")
-    path.write_bytes(path.read_bytes()[:1000])
-    assert ran(layout) == [("up-to-date", ""), ("done", "never run"), ("up-to-date", "")]
 
 
 def test_a_failure_is_a_result_and_nothing_follows_from_it(layout):
@@ -131,15 +128,6 @@ def test_a_fault_of_colonnade_is_told_with_its_place(layout):
     assert "Internal error in rocking, ZeroDivisionError at chain.py:" in reason
     assert "test_chain.py:" in reason
     assert "by zero" in reason
-
-
-def test_what_lost_its_worker_is_not_stored_as_failed(layout):
-    with only_run(layout) as run_id:
-        lost = chain(layout, run_id, toys(layout))
-        bring_up_to_date(replace(lost, products=lost.products[:1]))
-        (run,) = worker_lost(lost)
-    assert (run.stage, run.action) == ("condition", "failed")
-    assert ran(layout)[1:] == [("done", "never run")] * 2
 
 
 def test_nothing_is_written_or_removed_once_the_run_has_ended(layout):

@@ -6,7 +6,8 @@ import socket
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 
 import pytest
 
@@ -25,45 +26,37 @@ def free_port():
         return int(probe.getsockname()[1])
 
 
-def start(*arguments):
+@contextmanager
+def started(*arguments):
+    """A scheduler or a worker, until it is no longer needed."""
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    return subprocess.Popen([sys.executable, "-m", *arguments, "--host", "127.0.0.1", "--no-dashboard"], **quiet)
-
-
-def end(processes):
-    for process in processes:
-        process.terminate()
-    for process in processes:
+    command = [sys.executable, "-m", *arguments, "--host", "127.0.0.1", "--no-dashboard"]
+    with subprocess.Popen(command, **quiet) as process:
         try:
-            process.wait(10)
-        except subprocess.TimeoutExpired:
+            yield process
+        finally:
             process.kill()
-            process.wait()
 
 
 @contextmanager
 def scheduling():
     """A scheduler: its address and its process."""
-    port = free_port()
-    process = start("distributed.cli.dask_scheduler", "--port", str(port))
-    try:
+    port = str(free_port())
+    with started("distributed.cli.dask_scheduler", "--port", port) as process:
         with distributed.Client(f"tcp://127.0.0.1:{port}", timeout=60, set_as_default=False):
             pass
         yield f"tcp://127.0.0.1:{port}", process
-    finally:
-        end([process])
 
 
 @contextmanager
 def working(scheduler, *threads):
     """Workers of a scheduler, one process for each number of threads."""
-    processes = [start("distributed.cli.dask_worker", scheduler, "--no-nanny", "--nthreads", n) for n in threads]
-    try:
+    worker = partial(started, "distributed.cli.dask_worker", scheduler, "--no-nanny", "--nthreads")
+    with ExitStack() as stack:
+        processes = [stack.enter_context(worker(number)) for number in threads]
         with distributed.Client(scheduler, timeout=60, set_as_default=False) as client:
             client.wait_for_workers(len(threads), timeout=60)
         yield processes
-    finally:
-        end(processes)
 
 
 def _address():
@@ -95,15 +88,13 @@ def whose(number):
     return number**2, os.getpid()
 
 
-def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypatch):
-    monkeypatch.setattr("colonnade.workflow.executors._PATIENCE", 1)
+def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, soon):
     with pytest.raises(ColonnadeError, match=r"has no workers\. Start some: dask worker tcp://"):
         list(spread(whose, [1], Where(scheduler=scheduler)))
 
 
 @pytest.mark.parametrize("address", [f"tcp://127.0.0.1:{free_port()}", "no address", "127.0.0.1:notaport"])
-def test_what_is_no_scheduler_is_told(monkeypatch, address):
-    monkeypatch.setattr("colonnade.workflow.executors._PATIENCE", 1)
+def test_what_is_no_scheduler_is_told(soon, address):
     with pytest.raises(ColonnadeError, match="no Dask scheduler answers there"):
         list(spread(whose, [1], Where(scheduler=address)))
 

@@ -53,11 +53,12 @@ def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space
     assert in_space.redone() == {}
 
 
-def test_an_ensemble_of_the_contact_model_is_compared_and_reported(in_space):
+def test_an_ensemble_of_the_contact_model_is_reported_and_its_members_outlast_an_interrupt(in_space):
     in_space.edit("members = 20", "members = 5\ncontact = {members = 3}")
     in_space.edit('step = "30 us", penetration = 1e-6', 'step = "90 us", penetration = 1e-5')
     in_space.run(until="report")
-    bands = files.read(in_space.layout.stage("pulse-01", "ensemble", "contact"))
+    path, counted = in_space.layout.stage("pulse-01", "ensemble", "contact"), []
+    bands = files.read(path)
     assert bands.sizes["member"] == 3
     told = in_space.summary()["tests"]["pulse-01"]["predicted"]["contact"]
     assert told["overturning_probability"] == float(bands["overturning_probability"])
@@ -75,20 +76,12 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported(in_space):
     specimen = (report / "specimens" / "prism.html").read_text(encoding="utf-8")
     assert "critical damping fraction ξ at a node" in specimen
     assert "25, 0.408 to 1.63 kg and 4 to 16 N each" in specimen
-
-
-def test_members_on_contact_are_those_of_one_process_and_finished_ones_outlast_an_interrupt(in_space):
-    in_space.edit("members = 20", "members = 5\ncontact = {members = 3}")
-    in_space.edit('step = "30 us", penetration = 1e-6', 'step = "90 us", penetration = 1e-5')
-    in_space.run(workers=1)
-    path, told = in_space.layout.stage("pulse-01", "ensemble", "contact"), []
-    alone = files.read(path)
     path.unlink()
 
     def stop_after(most):
         def tell(stage, done, total):
             if (stage.subject, stage.stage, stage.model, total) == ("pulse-01", "ensemble", None, 3):
-                told.append((done, total))
+                counted.append((done, total))
                 if 0 < done == most:
                     raise KeyboardInterrupt
 
@@ -98,9 +91,9 @@ def test_members_on_contact_are_those_of_one_process_and_finished_ones_outlast_a
         in_space.run(workers=2, progress=stop_after(1))
     assert not path.exists()
     in_space.run(workers=2, progress=stop_after(4))
-    assert told == [(0, 3), (1, 3), (1, 3), (2, 3), (3, 3)]
-    for name in alone:
-        np.testing.assert_array_equal(files.read(path)[name].to_numpy(), alone[name].to_numpy())
+    assert counted == [(0, 3), (1, 3), (1, 3), (2, 3), (3, 3)]
+    for name in bands:
+        np.testing.assert_array_equal(files.read(path)[name].to_numpy(), bands[name].to_numpy())
     assert not in_space.layout.blocks(ResultId("pulse-01", "ensemble", "contact")).exists()
 
 
@@ -174,8 +167,8 @@ def test_a_real_column_of_several_bodies_is_assessed_by_the_contact_model(in_spa
     )
     (in_space.folder / "records").mkdir()
     time = np.arange(0.0, 1.0, 0.01)
-    for frequency in (2.0, 2.5):
-        pulse = np.where(time < 1 / frequency, np.sin(2 * np.pi * frequency * time), 0.0)
+    pulses = {each: np.where(time < 1 / each, np.sin(2 * np.pi * each * time), 0.0) for each in (2.0, 2.5)}
+    for frequency, pulse in pulses.items():
         rows = np.column_stack((time, pulse))
         head = "time [s],acceleration [m/s^2]"
         np.savetxt(in_space.folder / "records" / f"{frequency}.csv", rows, delimiter=",", header=head, comments="")
@@ -189,17 +182,12 @@ def test_a_real_column_of_several_bodies_is_assessed_by_the_contact_model(in_spa
     assert overturned[:, 1].all()
     plan = AssessmentInputs.of(campaign, campaign.assessments["site"]).on_contact()
     assert plan.assembly.height == pytest.approx(2 * campaign.specimens["two"].assembly(9.81).height)
-    motion = Motion(found.result["case_factor"].to_numpy()[0, 0, 0] * pulse_of(in_space, 2.0), 0.01)
+    motion = Motion(found.result["case_factor"].to_numpy()[0, 0, 0] * pulses[2.0], 0.01)
     of_the_first = [found.result[f"case_{name}"].to_numpy()[0, 0, 0, 0, 0] for name in ("outcome", "peak_ratio")]
     assert plan.end(motion, 0.6)[:2] == tuple(of_the_first)
     first, *_, last = sentences(record)
     assert first.startswith("A body falls, or ends more than 50 mm from its place, with a probability of 5\xa0%")
     assert "drums" not in last
-
-
-def pulse_of(in_space, frequency):
-    """Acceleration of one of its records."""
-    return np.loadtxt(in_space.folder / "records" / f"{frequency}.csv", delimiter=",", skiprows=1)[:, 1]
 
 
 def test_what_an_assessment_of_several_bodies_needs_is_said(in_space):

@@ -57,12 +57,6 @@ def test_one_worker_or_one_item_is_done_here_and_in_order(items, workers):
     assert list(spread(whose, items, Where(workers=workers))) == expected
 
 
-def test_two_workers_do_each_item_once_and_not_here():
-    found = list(spread(whose, range(9), Where(workers=2)))
-    assert sorted((place, square) for place, (square, _) in found) == [(number, number**2) for number in range(9)]
-    assert os.getpid() not in {process for _, (_, process) in found}
-
-
 @pytest.mark.parametrize("workers", [1, 2])
 def test_an_error_is_the_one_that_was_raised(workers):
     with pytest.raises(ColonnadeError, match="number 2 cannot be"):

@@ -18,13 +18,15 @@ def failures(result):
 
 
 @pytest.mark.smoke
-def test_a_bad_file_fails_its_test_alone_with_the_reason(untouched):
+def test_a_bad_file_fails_its_test_alone_with_the_reason_and_leaves_the_specimen_to_the_others(untouched):
     untouched.raw("pulse-01").write_bytes(b"\x00\x01 not a recording")
+    untouched.raw("free-01").write_text("time,top\n")
     result = untouched.run(until="report")
     assert result.failed
-    assert list(failures(result)) == ["pulse-01"]
+    assert list(failures(result)) == ["free-01", "pulse-01"]
     tests = untouched.summary()["tests"]
-    assert [test["status"] for test in tests.values()] == ["done", "done", "failed", "done"]
+    assert [test["status"] for test in tests.values()] == ["failed", "done", "failed", "done"]
+    assert untouched.summary()["specimens"]["prism"]["restitution"]["tests"] == ["free-02"]
     assert "pulse-01.csv" in tests["pulse-01"]["reason"]
     stored = files.read(untouched.layout.stage("pulse-01", "ingest"))
     assert (stored.attrs["status"], len(stored.variables)) == ("failed", 0)
@@ -39,18 +41,6 @@ def test_a_missing_file_fails_its_test_until_it_comes(untouched):
     untouched.raw("pulse-02").write_bytes(raw)
     assert not untouched.run().failed
     assert untouched.summary()["tests"]["pulse-02"]["status"] == "done"
-
-
-def test_a_failed_free_vibration_leaves_the_specimen_to_the_others(untouched):
-    untouched.raw("free-01").write_text("time,top\n")
-    untouched.run()
-    assert untouched.summary()["specimens"]["prism"]["restitution"]["tests"] == ["free-02"]
-
-
-def test_nothing_stays_behind_a_failure(small):
-    small.raw("pulse-01").write_text("time,top\n")
-    small.run(until="ingest")
-    assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
 
 
 def fails(error):

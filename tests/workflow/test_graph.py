@@ -1,6 +1,5 @@
 """The graph of results, what its steps hand on, what a run gives back, and the raw files at its beginning."""
 
-import os
 from functools import partial
 from pathlib import Path
 
@@ -10,7 +9,6 @@ import pytest
 from colonnade.campaign import load
 from colonnade.findings import note, serious, warning
 from colonnade.store import files
-from colonnade.store.results import results_of
 from colonnade.workflow import graph as module
 from colonnade.workflow.chain import RunResult, StageRun
 from colonnade.workflow.graph import Graph, RawFile, copies
@@ -22,25 +20,6 @@ from raw_files import Column, diadem
 @pytest.fixture
 def graph(small):
     return Graph(load(small.folder), small.layout, Catalogue(small.layout))
-
-
-@pytest.mark.parametrize("name", ["free-01", "pulse-01"])
-def test_the_steps_of_a_test_make_its_results_in_their_order(graph, name):
-    test = graph.campaign.tests[name]
-    steps = graph.of_test(test)
-    assert [step.result for step in steps] == results_of(graph.campaign, test)
-    made = {graph.layout.stage(test.specimen, "specimen")}
-    for step in steps:
-        assert {each for each in step.upstream.values() if isinstance(each, Path)} <= made, step.result
-        made |= {*step.paths}
-
-
-def test_each_stage_has_code_of_its_own_that_the_models_of_the_plane_share(graph):
-    of_stage = {}
-    for step in (step for name in ("free-01", "pulse-01") for step in graph.of_test(graph.campaign.tests[name])):
-        of_stage.setdefault(step.result.stage, set()).add(step.code)
-    assert all(len(codes) == 1 for codes in of_stage.values())
-    assert len(set.union(*of_stage.values())) == len(of_stage) > 4
 
 
 def test_the_code_is_hashed_again_only_if_a_source_changed(graph, monkeypatch):
@@ -71,80 +50,37 @@ def test_what_became_of_stages_is_told_by_subject_the_worst_first():
     assert list(told.findings) == ["campaign file", "a", "specimen prism"]
     assert [each.text for each, _ in told.findings["a"]] == ["a wrong gain.", "a gap."]
     assert told.failed
+    assert told.has_warnings
+    assert not result(StageRun("a", "ingest", "done", findings=(mild,)), of_campaign=(mild,)).has_warnings
     assert not result(StageRun("a", "ingest", "done"), StageRun("a", "rocking", "up-to-date")).failed
 
 
-@pytest.mark.parametrize(("finding", "counts"), [(note("gap", "x."), False), (warning("gap", "x."), True)])
-def test_notes_are_no_warnings(finding, counts):
-    assert result(StageRun("a", "ingest", "done", findings=(finding,))).has_warnings == counts
-    assert result(of_campaign=(finding,)).has_warnings == counts
-
-
-@pytest.fixture
-def seen(untouched, monkeypatch):
-    """Looks at the raw file of one test with a catalogue, and which files were hashed."""
-    campaign, hashed = load(untouched.folder), []
-    sha256_of = module.sha256_of
-    monkeypatch.setattr(module, "sha256_of", lambda path: hashed.append(path.name) or sha256_of(path))
-    untouched.layout.processed.mkdir(exist_ok=True)
-    return lambda catalogue: Graph(campaign, untouched.layout, catalogue).raw(campaign.tests["pulse-01"]), hashed
-
-
-def test_a_file_is_hashed_once_until_its_size_time_or_place_changes(untouched, seen):
-    look, hashed = seen
-    catalogue = Catalogue(untouched.layout)
-    assert look(catalogue) == look(catalogue)
-    catalogue.save()
-    first = look(Catalogue(untouched.layout))
-    assert hashed == ["pulse-01.csv"]
-    os.utime(untouched.raw("pulse-01"), (1, 1))
-    again = look(Catalogue(untouched.layout))
-    assert hashed == ["pulse-01.csv"] * 2
-    assert again["raw/pulse-01.csv"].sha256 == first["raw/pulse-01.csv"].sha256
-
-
-@pytest.fixture
-def told(small):
-    """Give the findings for some digests of two tests, with lines added to both entries."""
-
-    def give(*digests, lines=("", "")):
-        for name, line in zip(("free-01", "free-02"), lines, strict=True):
-            small.edit(f'file = "raw/{name}.csv"', f'file = "raw/{name}.csv"{line}')
-        campaign = load(small.folder)
-        tests = zip(campaign.tests, digests, strict=False)
-        raw = {test: {path: RawFile(each, (1, 1, 1)) for path, each in files.items()} for test, files in tests}
-        return [found.text for found in copies(campaign, raw)]
-
-    return give
-
-
-@every(
-    "digests",
-    [
-        [{"raw/a.csv": "1"}, {"raw/b.csv": "2"}],
-        [{"raw/a.csv": "1", "raw/b.csv": "1"}],
-        [{"raw/a.csv": None}, {"raw/b.csv": None}],
-    ],
-)
-def test_files_that_differ_or_are_of_one_test_or_empty_are_no_copies(told, digests):
-    assert told(*digests) == []
+def recordings(small, digests):
+    """What is said of files with these digests in the first tests."""
+    campaign = load(small.folder)
+    tests = zip(campaign.tests, digests, strict=False)
+    raw = {test: {path: RawFile(each, (1, 1, 1)) for path, each in files.items()} for test, files in tests}
+    return [found.text.partition(". ")[0] for found in copies(campaign, raw)]
 
 
 @every(
     ("digests", "named"),
     [
+        ([{"raw/a.csv": "1"}, {"raw/b.csv": "2"}], None),
+        ([{"raw/a.csv": "1", "raw/b.csv": "1"}], None),
+        ([{"raw/a.csv": None}, {"raw/b.csv": None}], None),
         ([{"raw/a.csv": "1"}, {"raw/a.csv": "1"}], "raw/a.csv"),
         ([{"raw/a.csv": "1", "raw/a.tdx": "2"}, {"raw/b.csv": "1", "raw/b.tdx": "2"}], "raw/a.tdx, raw/b.tdx"),
     ],
 )
-def test_two_tests_of_one_file_or_of_its_copy_are_one_recording(told, digests, named):
-    (text,) = told(*digests)
-    assert text.startswith(f"free-01, free-02 are one recording: {named}. ")
+def test_two_tests_of_one_file_or_of_its_copy_are_one_recording(small, digests, named):
+    assert recordings(small, digests) == ([f"free-01, free-02 are one recording: {named}"] if named else [])
 
 
-def test_windows_keep_two_tests_of_one_file_apart(told):
-    windows = ('\nwindow = ["0 s", "11 s"]', '\nwindow = ["9 s", "20 s"]')
-    assert told({"raw/a.csv": "1"}, {"raw/a.csv": "1"}, lines=windows) == []
+def test_windows_keep_two_tests_of_one_file_apart(small):
+    for name, window in (("free-01", '["0 s", "11 s"]'), ("free-02", '["9 s", "20 s"]')):
+        small.edit(f'file = "raw/{name}.csv"', f'file = "raw/{name}.csv"\nwindow = {window}')
+    assert recordings(small, [{"raw/a.csv": "1"}] * 2) == []
 
 
 @pytest.fixture

@@ -7,16 +7,20 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.campaign.forms.summary import Summary
+from colonnade.campaign.syntax.fields import MOST_CYCLES
 from colonnade.dynamics.maps import MapPlan, stability_map, steady_response
+from colonnade.dynamics.models import MODELS
 from colonnade.errors import CampaignError
+from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.records.stored import as_map, as_response
 from colonnade.store.results import ResultId
 from colonnade.workflow import maps as plans
+from colonnade.workflow.asked import picked
 from colonnade.workflow.executors import Where
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.lock import only_run
-from colonnade.workflow.maps import SETTLING, Wanted, kept_maps, make_maps
+from colonnade.workflow.maps import SETTLING, Measured, Wanted, kept_maps, make_maps
 from colonnade.workflow.product import Catalogue
 from colonnade.workflow.walk import Walk
 from every import every
@@ -63,30 +67,6 @@ def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
     assert made(small, asking(ramp=1.0)).because == "upstream changed"
 
 
-def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
-    summary = small.summary()
-    summary["tests"]["pulse-01"] |= {"frequency_ratio": 6.0, "amplitude_ratio": 4.0, "outcome": "overturned"}
-    summary["tests"]["pulse-02"] |= {"frequency_ratio": 3.0, "amplitude_ratio": None, "outcome": "rocking"}
-    small.layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
-    result = made(small, Wanted(models=("linear",), points=(3, 4), cycles=2.0))
-    chart = as_map(files.read(result.path))
-    assert chart.frequency_ratio[0] < 6.0 < chart.frequency_ratio[-1]
-    assert chart.amplitude_ratio[0] < 4.0 < chart.amplitude_ratio[-1]
-    assert result.measured == 1
-
-
-@every(
-    ("wanted", "specimens", "found"),
-    [
-        (FEW, ("prysm",), 'no specimen "prysm".*Did you mean "prism"'),
-        (Wanted(cycles=0.5), (), "at least one cycle"),
-    ],
-)
-def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
-    with pytest.raises(CampaignError, match=found):
-        make_maps(load(small.folder), small.layout, wanted, specimens)
-
-
 MAP = """
 import sys
 from pathlib import Path
@@ -115,18 +95,8 @@ def test_a_map_that_is_killed_goes_on_where_it_was_and_leaves_nothing_behind(sta
     assert files.read(made(small, wanted).path).attrs["content"] == again
 
 
-WITH_RESPONSES = Wanted(
-    models=("linear",), omega=(2.0, 5.0), amplitude=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True
-)
-
-
-def responses_made(small, **changes):
-    """Give the map, and the responses."""
-    return all_made(small, Wanted(**(WITH_RESPONSES.model_dump() | changes)))
-
-
 def test_they_are_those_of_the_library_and_made_once(small):
-    _, result = responses_made(small)
+    _, result = all_made(small, asking(responses=True))
     stored = as_response(files.read(result.path))
     e = tuple(float(value) for value in files.read(small.layout.stage("prism", "specimen"))["side_restitution"])
     axes = {"frequency_ratio": np.linspace(2.0, 5.0, 6), "amplitude_ratio": np.linspace(0.8, 2.0, 10)}
@@ -135,25 +105,21 @@ def test_they_are_those_of_the_library_and_made_once(small):
     for name in ("order", "amplitude"):
         np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)
     assert "every cycle" in result.figure.read_text(encoding="utf-8")
-    assert [each.because for each in responses_made(small)] == ["", ""]
-    assert [each.because for each in responses_made(small, phase=1.0)] == ["settings changed"] * 2
+    assert [each.because for each in all_made(small, asking(responses=True))] == ["", ""]
+    assert [each.because for each in all_made(small, asking(responses=True, phase=1.0))] == ["settings changed"] * 2
     result.path.unlink()
-    assert [each.because for each in responses_made(small, phase=1.0)] == ["", "never run"]
+    assert [each.because for each in all_made(small, asking(responses=True, phase=1.0))] == ["", "never run"]
 
 
 def test_they_depend_on_the_sine_and_on_their_own_settling_and_not_on_the_cycles_of_the_map(small):
     few = {"points": (2, 3)}
-    _, before = responses_made(small, **few)
+    _, before = all_made(small, asking(responses=True, **few))
     settings = json.loads(files.read(before.path).attrs["settings"])
     assert settings["settling"] == SETTLING
     assert settings["model"] == "linear"
     assert settings.keys().isdisjoint({"cycles", "width", "edge"})
-    longer, same = responses_made(small, cycles=6.0, **few)
+    longer, same = all_made(small, asking(responses=True, cycles=6.0, **few))
     assert (longer.because, same.because) == ("settings changed", "")
-
-
-LINEAR = Wanted(models=("linear",))
-RARE = Wanted(models=("linear",), points=(3, 4), cycles=2.0)
 
 
 @pytest.fixture(autouse=True)
@@ -181,6 +147,47 @@ def kept(small, summary, **options):
     return [(stage.model, stage.action, stage.because) for stage in walk.stages]
 
 
+def plan_of(small, wanted, *points):
+    """The plan of a linear map with these measured points."""
+    measured = Measured("prism", [MapPoint("sine-01", *point, "rocking") for point in points], 0.93, "given")
+    return plans.plan_of(load(small.folder), small.layout, wanted, "linear", measured)
+
+
+def test_axes_are_those_that_are_given_else_those_of_the_tests_with_a_margin_else_the_usual_ones(untouched):
+    few = Wanted(models=("linear",), points=(3, 4), cycles=2.0)
+    usual, given, tested, default = (
+        plan_of(untouched, few),
+        plan_of(untouched, asking(omega=(3.0, 5.0), amplitude=(1.0, 2.0), points=(3, 4)), (2.0, 9.0)),
+        plan_of(untouched, few, (2.0, 1.0), (4.0, 9.0)),
+        plan_of(untouched, Wanted(models=("linear",), cycles=2.0)),
+    )
+    assert (usual.frequency_ratio[0], usual.frequency_ratio[-1]) == plans.USUAL_FREQUENCIES
+    assert (usual.amplitude_ratio[0], usual.amplitude_ratio[-1]) == (plans.LOWEST_AMPLITUDE, plans.USUAL_AMPLITUDE)
+    assert usual.restitution == (0.93, 0.93)
+    np.testing.assert_allclose(given.frequency_ratio, [3.0, 4.0, 5.0])
+    np.testing.assert_allclose(given.amplitude_ratio, np.linspace(1.0, 2.0, 4))
+    assert (tested.frequency_ratio[0], tested.frequency_ratio[-1]) == (1.8, 4.4)
+    assert tested.amplitude_ratio[-1] == 11.0  # 1.2 times 9 is 10.8
+    assert (default.frequency_ratio.size, default.amplitude_ratio.size) == MODELS["linear"].map_points
+
+
+@every(
+    ("changes", "said"),
+    [
+        ({"omega": (1.0, 1e9)}, "--omega: "),
+        ({"omega": (3.0, 2.0)}, "--omega: 3 and 2 (SI) were found. The second has to be the larger one."),
+        ({"amplitude": (0.0, 1.0)}, "--amplitude: "),
+        ({"cycles": 2 * MOST_CYCLES}, "--cycles: "),
+        ({"ramp": float("nan")}, "--ramp: "),
+        ({"points": (3, 10_001)}, "--points: "),
+    ],
+)
+def test_what_cannot_be_asked_is_refused_by_its_option(changes, said):
+    with pytest.raises(CampaignError) as caught:
+        picked(Wanted, changes)
+    assert str(caught.value).startswith(said)
+
+
 def test_sines_at_two_frequencies_make_a_map_by_each_model_in_the_plane(small):
     summary = with_sines(small, 2.0, 3.0)
     done = [("linear", "done", "never run"), ("nonlinear", "done", "never run")]
@@ -196,10 +203,10 @@ def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
     summary = with_sines(small, 2.0, 3.0)
     kept(small, summary)
     by_run = files.read(small.layout.stage("prism", "map", "linear"))
-    (made,) = all_made(small, LINEAR)
-    assert not made.because
+    (made,) = all_made(small, Wanted(models=("linear",)))
+    assert (made.because, made.measured) == ("", 2)
     made.path.unlink()
-    (made,) = all_made(small, LINEAR)
+    (made,) = all_made(small, Wanted(models=("linear",)))
     assert made.because == "never run"
     by_command = files.read(made.path)
     assert by_command.attrs["content"] == by_run.attrs["content"]
@@ -209,7 +216,7 @@ def test_a_run_and_the_command_give_and_reuse_the_same_map(small):
 
 def test_a_map_that_was_asked_for_stays_until_its_specimen_changes(small):
     summary = with_sines(small, 2.0, 3.0)
-    (made,) = all_made(small, RARE)
+    (made,) = all_made(small, Wanted(models=("linear",), points=(3, 4), cycles=2.0))
     assert kept(small, summary)[0] == ("linear", "up-to-date", "")
     assert files.read(made.path).sizes["frequency_ratio"] == 3
     small.edit('height = "456 mm"', 'height = "460 mm"')

@@ -1,9 +1,12 @@
 """Photos in the report: bare copies, made once, and a warning instead of a failure where one cannot be shown."""
 
+from unittest.mock import Mock
+
 import pytest
 from PIL import Image
 
 from colonnade.campaign import load
+from colonnade.errors import ReadError
 from colonnade.store.layout import Layout
 from colonnade.workflow import pages
 from colonnade.workflow.graph import Graph
@@ -70,7 +73,9 @@ def test_a_copy_is_made_again_only_if_the_photo_changed_or_it_was_lost(folder, m
     assert copy.read_bytes() != before
 
 
-def test_a_photo_that_is_no_longer_named_is_taken_away(folder):
+def test_a_photo_that_is_no_longer_named_is_taken_away_and_without_any_nothing_is_made(folder):
+    assert photos_shown(graph_of(folder)) == ({}, [])
+    assert not (folder / "report").exists()
     brought(folder, "photos/a.jpg", "photos/b.png")
     copies, _ = brought(folder, "photos/b.png")
     assert list(copies) == ["free-01-1.jpg"]
@@ -102,7 +107,10 @@ def test_a_photo_that_cannot_be_shown_is_a_warning_about_its_test(folder, tmp_pa
         assert told in found.text
 
 
-def test_a_campaign_without_photos_is_as_it_was(folder):
-    graph = graph_of(folder)
-    assert photos_shown(graph) == ({}, [])
-    assert not graph.layout.report.parent.exists()
+def test_a_photo_that_the_machine_could_not_read_is_tried_again(folder, monkeypatch):
+    error = ReadError("stopped.")
+    error.__cause__ = OSError(12, "out of memory")
+    with monkeypatch.context() as failing:
+        failing.setattr(pages, "read_photo", Mock(side_effect=error))
+        assert "stopped." in brought(folder, "photos/a.jpg")[1][0].text
+    assert brought(folder, "photos/a.jpg")[1] == []

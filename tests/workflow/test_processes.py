@@ -6,12 +6,13 @@ import signal
 import subprocess
 import time
 from contextlib import suppress
-from pathlib import Path
 
+import psutil
 import pytest
 
 from colonnade import interruption
 from colonnade.workflow import walk
+from processes import wait_until
 
 RUN = """
 import sys
@@ -116,70 +117,54 @@ def going(start, untouched):
 
 
 def members(session):
-    """Processes of a session with their commands, by /proc."""
+    """Processes of a session with their commands."""
     found = {}
-    for entry in Path("/proc").glob("[0-9]*"):
-        try:
-            fields = (entry / "stat").read_text().rpartition(")")[2].split()
-            command = (entry / "cmdline").read_text()
-        except OSError:
-            continue
-        if int(fields[3]) == session and fields[0] != "Z":
-            found[int(entry.name)] = command
+    for each in psutil.process_iter(["status", "cmdline"]):
+        with suppress(OSError):
+            if os.getsid(each.pid) == session and each.info["status"] != psutil.STATUS_ZOMBIE:
+                found[each.pid] = " ".join(each.info["cmdline"] or ())
     return found
 
 
-def left_of(session):
-    """Processes of a session that do not end."""
-    until = time.monotonic() + PATIENCE
-    while (there := members(session)) and time.monotonic() < until:
-        time.sleep(0.05)
-    return there
+def expect_end_of(session):
+    """Expect that all processes of a session end soon."""
+    wait_until(lambda: not members(session), PATIENCE, lambda: f"still there: {members(session)}")
 
 
-needs_proc = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are found in Linux's /proc")
-
-
-def in_proc(test):
-    return pytest.mark.whole(needs_proc(test))
-
-
-@in_proc
+@pytest.mark.whole
 @pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, resumes):
     os.killpg(going.pid, signal.SIGINT)
     assert going.wait(PATIENCE) == 130
     assert "Traceback" not in going.stderr.read()
-    assert left_of(going.pid) == {}
+    expect_end_of(going.pid)
     resumes()
 
 
-@in_proc
+@pytest.mark.whole
 @pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("delay", [0.0, 0.1, 0.4], ids=lambda delay: f"after {delay} s")
 def test_ctrl_c_does_not_tear_workers_from_their_imports(start, delay):
     starting = start(IMPORT, said="going", stderr=subprocess.PIPE)
-    while not any("popen_loky" in command for command in members(starting.pid).values()):
-        assert starting.poll() is None, starting.stderr.read()
-        time.sleep(0.005)
+    wait_until(lambda: any("popen_loky" in command for command in members(starting.pid).values()))
     time.sleep(delay)
     os.killpg(starting.pid, signal.SIGINT)
     code, told = starting.wait(PATIENCE), starting.stderr.read()
     assert (code, told) == (130, "")
-    assert left_of(starting.pid) == {}
+    expect_end_of(starting.pid)
 
 
-@in_proc
+@pytest.mark.whole
 def test_no_worker_outlives_a_run_that_is_killed(going):
     going.kill()
     going.wait()
-    assert left_of(going.pid) == {}
+    expect_end_of(going.pid)
 
 
-@in_proc
+@pytest.mark.whole
 def test_a_worker_that_was_never_given_work_does_not_outlive_its_parent(start):
     waiting = start(WAIT, said="going")
     assert len(members(waiting.pid)) > 2
     waiting.kill()
     waiting.wait()
-    assert left_of(waiting.pid) == {}
+    expect_end_of(waiting.pid)

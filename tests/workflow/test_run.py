@@ -3,8 +3,6 @@
 import pytest
 
 from colonnade.errors import CampaignError
-from colonnade.workflow import run
-from every import every
 
 
 def test_until_stops_after_a_stage_and_the_rest_is_pending(untouched):
@@ -58,22 +56,3 @@ def test_a_test_whose_results_are_out_of_date_is_pending(small, options):
     told = small.summary()["tests"]["pulse-02"]
     assert told["status"] == "pending"
     assert told["reason"] == "its results are missing or out of date; `colonnade run` makes them"
-
-
-@every(
-    "given",
-    [
-        {"campaign": None},
-        {"results": 3},
-        {"until": 3},
-        {"scheduler": 8786},
-        {"only": [1]},
-        {"workers": 0},
-        {"verify": "maybe"},
-        {"awaiting": 3},
-        {"progress": "bar"},
-    ],
-)
-def test_what_it_does_not_take_is_named(given):
-    with pytest.raises(ValueError, match=f"for run\n{next(iter(given))}"):
-        run(**{"campaign": "no-such-folder"} | given)

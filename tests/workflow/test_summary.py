@@ -15,18 +15,13 @@ from colonnade.workflow.summary import choose, is_blind
 from foreseeing import LATER, TEST, foreseen_of
 
 
-def test_the_summary_has_the_contracts_form(undisturbed):
+def test_the_summary_has_the_contracts_form_and_says_what_the_results_say(undisturbed):
     summary = undisturbed.summary()
     Summary.model_validate(summary)
     assert list(summary) == ["schema", "campaign", "colonnade", "specimens", "tests", "forecasts", "assessments"]
-    assert summary["tests"]["pulse-02"]["outcome"] == "overturned"
-    assert summary["tests"]["pulse-02"]["peak_ratio"] is None
-
-
-def test_the_summary_says_what_the_results_say(undisturbed):
-    test = undisturbed.summary()["tests"]["pulse-01"]
-    rocking = files.read(undisturbed.layout.stage("pulse-01", "rocking"))
-    compared = files.read(undisturbed.layout.stage("pulse-01", "compare"))
+    fallen, test = summary["tests"]["pulse-02"], summary["tests"]["pulse-01"]
+    assert (fallen["outcome"], fallen["peak_ratio"], test["release_ratio"]) == ("overturned", None, None)
+    rocking, compared = (files.read(undisturbed.layout.stage("pulse-01", stage)) for stage in ("rocking", "compare"))
     assert test["peak_ratio"] == float(rocking["peak_ratio"])
     assert test["pga"] == float(rocking["peak_ground_acceleration"])
     assert test["impacts"] == rocking.sizes["impact"]
@@ -36,21 +31,15 @@ def test_the_summary_says_what_the_results_say(undisturbed):
     assert float(rows[2]["peak_ratio"]) == test["peak_ratio"]
 
 
-def test_a_free_vibrations_peak_is_that_of_the_time_that_is_predicted(undisturbed):
-    summary = undisturbed.summary()["tests"]
-    test, compared = summary["free-01"], files.read(undisturbed.layout.stage("free-01", "compare"))
+def test_free_vibrations_have_the_peak_of_the_time_that_is_predicted_and_the_true_restitution(undisturbed):
+    summary, compared = undisturbed.summary(), files.read(undisturbed.layout.stage("free-01", "compare"))
+    test, restitution = summary["tests"]["free-01"], summary["specimens"]["prism"]["restitution"]
     assert test["peak_ratio"] == float(compared["measured_peak_ratio"])
     assert test["peak_ratio"] == pytest.approx(test["predicted"]["nonlinear"]["peak_ratio"], abs=2e-3)
     # Released from 0.5; then by Housner's relation, 1 − (1 − φ)² = e² [1 − (1 − φ₀)²]. The raw files are that near.
     assert test["release_ratio"] == pytest.approx(0.5, abs=5e-3)
     assert test["peak_ratio"] == pytest.approx(1 - (1 - 0.93**2 * 0.75) ** 0.5, abs=5e-3)
-    assert summary["pulse-01"]["release_ratio"] is None
-
-
-def test_the_specimens_restitution_is_the_true_one_with_its_interval(undisturbed):
-    restitution = undisturbed.summary()["specimens"]["prism"]["restitution"]
-    assert restitution["source"] == "identified"
-    assert restitution["tests"] == ["free-01", "free-02"]
+    assert (restitution["source"], restitution["tests"]) == ("identified", ["free-01", "free-02"])
     assert restitution["low"] < 0.93 < restitution["high"]
     assert restitution["value"] == pytest.approx(0.93, abs=0.002)  # by which the raw files were written
 

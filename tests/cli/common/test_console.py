@@ -21,12 +21,9 @@ def test_text_is_written_as_it_is(capsys):
     assert capsys.readouterr().out == "[bold]θ[/bold] :smile: " + "x" * 300 + "\n"
 
 
-def test_a_record_is_written_by_the_names_of_its_fields(capsys):
+def test_a_record_is_written_by_the_names_of_its_fields_what_is_not_known_as_null_and_arrays_as_lists(capsys):
     console.show_json([Made("θ", Path("a/b"))])
     assert capsys.readouterr().out == '[\n  {\n    "name": "θ",\n    "path": "a/b"\n  }\n]\n'
-
-
-def test_what_is_not_known_is_null_and_arrays_are_lists(capsys):
     console.show_json({"a": np.array([1.5, np.nan]), "b": np.inf})
     assert json.loads(capsys.readouterr().out) == {"a": [1.5, None], "b": None}
 

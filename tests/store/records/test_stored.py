@@ -1,17 +1,15 @@
 """What is stored of a test, read once and given by name; what is not there is empty, never an error."""
 
-import json
 from math import isnan
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.dynamics.maps import StabilityMap
 from colonnade.findings import Severity, warning
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import Failure, Stored, as_dataset, as_map, read_test
+from colonnade.store.records.stored import Stored, read_test
 from colonnade.store.results import ResultId
 
 
@@ -28,17 +26,6 @@ def stored():
     return Stored({("rocking", None): dataset(), ("compare", None): dataset(), ("predict", "linear"): dataset()})
 
 
-def test_what_is_there_is_given_by_name(stored):
-    assert stored.value("rocking", "peak_ratio") == 0.4
-    assert stored.median("rocking", "rocking_angle") == pytest.approx(0.1)
-    assert stored.compared("nrmse", "nonlinear") == 0.3
-    assert stored.by("model", "rocking", "nrmse") == {"linear": 0.1, "nonlinear": 0.3}
-    assert (stored.text("rocking", "outcome"), stored.texts("rocking", "notes")) == ("rocking", ["one", "two"])
-    assert stored.models("predict") == ["linear"]
-    assert stored.has("rocking", "nrmse")
-    assert not stored.has("rocking", "slide")
-
-
 def test_what_is_not_there_is_empty(stored):
     assert isnan(stored.value("rocking", "slide"))
     assert isnan(stored.value("rocking", "rocking_angle"))  # no scalar
@@ -46,13 +33,6 @@ def test_what_is_not_there_is_empty(stored):
     assert stored.array("ingest", "top").size == 0
     assert stored.by("estimator", "rocking", "nrmse") == {}
     assert (stored.text("ingest", "outcome"), stored.texts("rocking", "missing")) == ("", [])
-
-
-def test_a_test_is_done_with_its_comparison_unless_something_failed(stored):
-    assert stored.status == "done"
-    assert Stored({("rocking", None): dataset()}).status == "pending"
-    stored.failures.append(Failure("rocking", "because"))
-    assert stored.status == "failed"
 
 
 @pytest.fixture
@@ -89,28 +69,3 @@ def test_results_of_another_campaign_are_not_read(written_results):
     assert read(is_outdated=True).datasets == {}
     assert "out of date" in read(is_outdated=True).outdated
     assert not read().outdated
-
-
-OPTIONS = {"model": "linear", "cycles": 5, "width": 0.01}
-CHART = StabilityMap(
-    frequency_ratio=np.array([2.0, 3.0]),
-    amplitude_ratio=np.array([1.0, 2.0, 4.0]),
-    outcome=np.array([[0, 1, 2], [0, 2, 2]], dtype=np.int8),
-    overturning_fraction=np.array([[0.0, 0.25, 1.0], [0.0, 0.5, 1.0]]),
-    no_rocking=np.array([1.01, 1.02]),
-    lower=np.array([2.5, np.nan]),
-    upper=np.array([np.nan, 3.5]),
-    interval_frequency_ratio=np.array([2.0, 3.0, 3.0]),
-    interval_start=np.array([2.5, 1.8, 3.6]),
-    interval_end=np.array([4.0, 1.805, 4.0]),
-    options=OPTIONS,
-)
-
-
-def test_a_map_comes_back_from_a_file_as_it_was(tmp_path):
-    path = tmp_path / "map.nc"
-    files.write(as_dataset(CHART).assign_attrs(settings=json.dumps(OPTIONS)), path, attributes={})
-    read = as_map(files.read(path))
-    for name, value in vars(CHART).items():
-        np.testing.assert_array_equal(getattr(read, name), value, err_msg=name)
-    np.testing.assert_array_equal(read.islands, [[3.0, 1.8, 1.805]])

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.findings import serious, warning
 from colonnade.stages.specimen import SpecimenInputs, taken
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.test import record_of_specimen, record_of_test
@@ -57,14 +56,6 @@ def test_without_a_scale_there_is_no_prototype(written):
     assert record(written(", scale = 20"), {"rocking": rocking()}).prototype is None
 
 
-def test_a_free_vibrations_peak_is_known_once_it_was_compared(campaign):
-    free = campaign.tests["pulse-01"].model_copy(update={"kind": "free-vibration"})
-    assert record(campaign, {"rocking": rocking()}, free).peak_ratio is None
-    peak = {"measured_peak_ratio": 0.3, "measured_peak_time": 2.0, "release_ratio": 0.5}
-    test = record(campaign, {"rocking": rocking(), "compare": compared("", **peak)}, free)
-    assert (test.peak_ratio, test.peak_time, test.release_ratio) == (0.3, 2.0, 0.5)
-
-
 @pytest.mark.parametrize(("stored", "order"), [("", None), ("1", 1), ("3", 3), ("irregular", "irregular")])
 def test_a_sine_tests_forcing_and_order_are_the_comparisons(stored, order, campaign):
     sine = campaign.tests["pulse-01"].model_copy(update={"kind": "sine", "frequency": 3.0})
@@ -95,13 +86,8 @@ def test_a_record_is_done_failed_or_pending_with_the_reason(campaign):
     assert status(Stored(outdated="out of date")) == ("pending", "out of date")
     assert status(Stored({("compare", None): compared()})) == ("done", None)
     failures = [Failure("ingest", "No file."), Failure("", "Specimen prism failed.")]
-    assert status(Stored(failures=failures)) == ("failed", "ingest: No file. Specimen prism failed.")
-
-
-def test_findings_are_in_order_with_what_follows_from_them(campaign):
-    late = warning("no arc", "No arc was found.", follows=("gain",))
-    test = record_of_test(campaign, campaign.tests["pulse-01"], Stored(findings=[late, serious("gain", "Ten times.")]))
-    assert [(each.kind, each.explained) for each in test.warnings] == [("gain", False), ("no arc", True)]
+    told = ("failed", "ingest: No file. Specimen prism failed.")
+    assert status(Stored({("compare", None): compared()}, failures=failures)) == told
 
 
 @pytest.mark.parametrize(

@@ -81,13 +81,10 @@ def test_the_line_arrives_as_json_and_no_shell_reads_the_command(tmp_path):
     assert (json.loads(text), shell) == (LINE, "(touch x)")
 
 
-def test_a_failure_is_a_sentence():
+def test_a_failure_is_a_sentence_and_a_command_that_hangs_is_ended(monkeypatch):
     script = "import sys; sys.exit('no connection')"
     assert notify([sys.executable, "-c", script], LINE).endswith("non-zero exit status 1.")
     assert "No such file" in notify(["/nowhere/at-all"], LINE)
-
-
-def test_a_command_that_hangs_is_ended(monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", 0.2)
     assert "longer than 0.2 s" in notify([sys.executable, "-c", "import time; time.sleep(60)"], LINE)
 

@@ -16,6 +16,7 @@ from colonnade.workflow.watching import watch as module
 from colonnade.workflow.watching.measure import Line
 from colonnade.workflow.watching.watch import Behind, Ended, watch
 from prism import entry
+from processes import wait_until
 
 pytestmark = pytest.mark.whole
 
@@ -147,14 +148,6 @@ def test_advice_after_a_free_vibration_knows_those_just_before_it(small, crashin
     lines = [each.text() for each in shown]
     assert "identified from 2 free vibrations" in lines[2]
     assert "from 2" in lines[3]
-
-
-def wait_until(condition):
-    until = time.monotonic() + 600
-    while not (found := condition()):
-        assert time.monotonic() < until
-        time.sleep(0.05)
-    return found
 
 
 def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small):
