@@ -5,7 +5,7 @@ import numpy as np
 import fragility_trial
 from fragility_trial import MEDIAN, Population
 
-__all__ = ["BETA", "LEVELS", "MEDIAN", "lognormal", "names", "outcomes_of", "two_kinds"]
+__all__ = ["BETA", "LEVELS", "MEDIAN", "lognormal", "names", "outcomes_of"]
 
 BETA, LEVELS = Population().beta, Population().intensity
 
@@ -21,7 +21,3 @@ def outcomes_of(capacity, levels=LEVELS):
 
 def lognormal(seed, **chosen):
     return Population(**chosen).sample(np.random.default_rng(seed))
-
-
-def two_kinds(seed):
-    return lognormal(seed, two_kinds=True)

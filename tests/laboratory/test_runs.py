@@ -18,36 +18,24 @@ from colonnade.laboratory.runs import START_SCATTER, run_test, write
 from colonnade.laboratory.table import Imperfections, ramped_sine
 from colonnade.laboratory.truth import simulate
 from colonnade.workflow import executors
-from prism import PRISM
-from prism import SPECIMEN as PRISM_LINE
+from prism import PRISM, campaign_of
 
 pytestmark = pytest.mark.whole
 
-ALONG = "direction = [1, 0, 0]"
-VOLTS = f'unit = "V", range = "10 V", {ALONG}'
+VOLTS = 'unit = "V", range = "10 V", direction = [1, 0, 0]'
 AT = 'on = "specimen", relative_to = "table", at = ["43 mm", "0 mm", "440 mm"]'
-HEAD = f"""
-schema = 1
-campaign = "c"
-title = "C"
-
-[specimens]
-{PRISM_LINE}
-
-[setups.both]
-catch = "0.28 rad"
-recorders.daq2 = {{}}
-
-[setups.both.channels]
-top = {{column = "Top", quantity = "displacement", gain = "15 mm/V", {AT}, {VOLTS}}}
-table = {{column = "Table", recorder = "daq2", quantity = "acceleration", gain = "2 m/s^2/V", on = "table", {VOLTS}}}
-"""
+HEAD = campaign_of(
+    f'top = {{column = "Top", quantity = "displacement", gain = "15 mm/V", {AT}, {VOLTS}}}',
+    'table = {column = "Table", recorder = "daq2", quantity = "acceleration", gain = "2 m/s^2/V", on = "table", '
+    f"{VOLTS}}}",
+    before='[setups.frame]\ncatch = "0.28 rad"\nrecorders.daq2 = {}\n',
+)
 LATE = 0.3
 SHAKEN = ramped_sine(2.0, 1.2 * PRISM.uplift_acceleration, start=0.5, cycles=2, ramp=1)
 TRIALS = (
-    Trial("free", "free-vibration", "both", duration=2.0, theta0=0.1, release=0.5),
-    Trial("sine", "sine", "both", duration=3.0, table=SHAKEN, spikes=6),
-    Trial("rest", "sine", "both", duration=1.0),
+    Trial("free", "free-vibration", "frame", duration=2.0, theta0=0.1, release=0.5),
+    Trial("sine", "sine", "frame", duration=3.0, table=SHAKEN, spikes=6),
+    Trial("rest", "sine", "frame", duration=1.0),
 )
 PERFECT = Imperfections(noise=0.0, drift=0.0, zero=0.0)
 
@@ -72,7 +60,7 @@ def sheets():
 def plan(sheets):
     main, second = map(keeping, sheets)
     recorders = {MAIN: Recorder(500.0, main), "daq2": Recorder(400.0, second, LATE)}
-    return Plan(HEAD, {"prism": 0.97}, {"both": recorders}, TRIALS, PERFECT)
+    return Plan(HEAD, {"prism": 0.97}, {"frame": recorders}, TRIALS, PERFECT)
 
 
 def loaded(plan, folder):
@@ -134,7 +122,7 @@ def test_the_truth_holds_specimens_and_tests_and_reads_back(plan, tmp_path):
 def plan_in_text():
     """The same in decimal commas, with noise."""
     recorders = {MAIN: Recorder(500.0, GERMAN), "daq2": Recorder(400.0, GERMAN, LATE)}
-    return Plan(HEAD, {"prism": 0.97}, {"both": recorders}, TRIALS)
+    return Plan(HEAD, {"prism": 0.97}, {"frame": recorders}, TRIALS)
 
 
 def tree(folder):

@@ -1,6 +1,5 @@
 """Pages of real columns and of forecasts: the answer, what it rests on, what was left out."""
 
-import json
 from html import unescape
 
 import pytest
@@ -15,8 +14,7 @@ from colonnade.store.records.summary import read_summary
 from colonnade.workflow.graph import Graph
 from colonnade.workflow.pages import Report
 from colonnade.workflow.product import Catalogue
-from colonnade.workflow.summary import choose, foreseen_of
-from foreseeing import LATER
+from colonnade.workflow.summary import choose, foreseen_of, write_summary
 from read_pages import Page
 
 
@@ -42,25 +40,14 @@ def test_it_is_on_the_way_of_the_pages_and_on_paper(assessed):
     assert titles[-2:] == ["The real column", "Methods"]
 
 
-def with_summary(folder):
-    """Write what a run says of forecasts into the summary."""
-    campaign, layout = load(folder), Layout(folder)
-    forecasts = read_forecasts(layout)
-    chosen = choose(campaign, forecasts, {name: {} for name in campaign.tests})
-    by_test, together = foreseen_of(layout, forecasts, chosen)
-    summary = json.loads(layout.summary_json.read_text(encoding="utf-8"))
-    record = by_test[LATER].model_dump(mode="json")
-    summary["tests"][LATER] = {"status": "pending", "kind": "earthquake", "specimen": "prism", "forecast": record}
-    summary["forecasts"] = together.model_dump(mode="json")
-    layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
-    return campaign, layout
-
-
 @pytest.mark.whole
 def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     (foreseen_copy / "forecasts" / "<b>.json").write_text("{}", encoding="utf-8")
-    campaign, layout = with_summary(foreseen_copy)
-    page = forecasts_page(layout, read_summary(layout))
+    campaign, layout = load(foreseen_copy), Layout(foreseen_copy)
+    graph, forecasts = Graph(campaign, layout, Catalogue(layout)), read_forecasts(layout)
+    chosen = choose(campaign, forecasts, {name: {} for name in campaign.tests})
+    summary = write_summary(graph, foreseen=foreseen_of(layout, forecasts, chosen))
+    page = forecasts_page(layout, summary)
     assert [(row.forecast.level, row.entry.blind, row.happened) for row in page["rows"]] == [
         ("0.01 g", True, "not yet"),
         ("9x", True, "not yet"),
@@ -69,8 +56,7 @@ def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     assert shares == [("100 %", "0 %", "0 %"), ("0 %", "0 %", "100 %")]
     assert [entry.file for entry in page["refused"]] == ["<b>.json"]
     assert page["calibration"] is None
-    forecasts = read_summary(layout).forecasts
-    Report(Graph(campaign, layout, Catalogue(layout)), forecasts=forecasts).bring_up_to_date()
+    Report(graph, forecasts=summary.forecasts).bring_up_to_date()
     folder = layout.report.parent
     text = (folder / "forecasts.html").read_text(encoding="utf-8")
     assert "0.01 g" in text

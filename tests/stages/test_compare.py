@@ -5,7 +5,6 @@ import pytest
 import xarray as xr
 
 import chain
-from chain import compared
 from colonnade.findings import MEASUREMENT, Severity
 from colonnade.stages.compare import CompareInputs, compare
 from every import every
@@ -120,30 +119,24 @@ FREQUENCY, AMPLITUDE = 4.0, 1.7  # of the base motion that `shaken` makes
 
 
 @pytest.fixture
-def sine_test(small_campaign):
-    return small_campaign.tests["shake-01"].model_copy(update={"kind": "sine", "frequency": FREQUENCY})
+def sine(small_campaign, shaken):
+    """Compare the sine test with two models, some of its keys and of what was measured changed."""
+    test = small_campaign.tests["shake-01"].model_copy(update={"kind": "sine", "frequency": FREQUENCY})
+    measured, pooled = chain.measured(small_campaign, test, shaken[0])[1], chain.pooled(small_campaign, {}, given=0.93)
+    models = ("linear", "nonlinear")
+    predicted = {model: chain.predicted(small_campaign, test, measured, pooled, model) for model in models}
+
+    def compared(changes=None, **channels):
+        seen = measured.assign({name: ("elapsed", values) for name, values in channels.items()})
+        return chain.compared(small_campaign, test.model_copy(update=changes), seen, predicted)
+
+    return compared
 
 
-@pytest.fixture
-def measured(small_campaign, shaken, sine_test):
-    return chain.measured(small_campaign, sine_test, shaken[0])[1]
-
-
-@pytest.fixture
-def predicted(small_campaign, measured, sine_test):
-    pooled = chain.pooled(small_campaign, {}, given=0.93)
-    return {
-        model: chain.predicted(small_campaign, sine_test, measured, pooled, model) for model in ("linear", "nonlinear")
-    }
-
-
-def test_the_forcing_is_the_recorded_one_and_responses_have_the_true_order(
-    small_campaign, sine_test, measured, predicted
-):
-    result = compared(small_campaign, sine_test, measured, predicted)
-    block = small_campaign.block("prism")
+def test_the_forcing_is_the_recorded_one_and_responses_have_the_true_order(sine):
+    result = sine()
     assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
-    assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * FREQUENCY / block.p, rel=1e-3)
+    assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * FREQUENCY / PRISM.p, rel=1e-3)
     assert float(result["amplitude_ratio"]) == pytest.approx(AMPLITUDE, rel=5e-3)
     assert result.attrs["warnings"] == []
     assert result.attrs["response_order"] == "1"
@@ -165,22 +158,19 @@ RECORDED = AMPLITUDE * PRISM.uplift_acceleration
         ({"amplitude": RECORDED / 0.95}, None),
     ],
 )
-def test_another_frequency_or_amplitude_than_the_given_one_is_told_and_the_recorded_one_used(
-    asked, said, small_campaign, sine_test, measured, predicted
-):
-    result = compared(small_campaign, sine_test.model_copy(update=asked), measured, predicted)
+def test_another_frequency_or_amplitude_than_the_given_one_is_told_and_the_recorded_one_used(asked, said, sine):
+    result = sine(asked)
     told = [each.text for each in result.attrs["warnings"]]
     assert len(told) == (said is not None)
     assert all(said in text for text in told)
     assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
 
 
-def test_a_motion_that_is_no_sine_keeps_the_given_frequency_and_is_told(small_campaign, sine_test, measured, predicted):
-    noise = np.random.default_rng(0).normal(0, 1, measured.sizes["elapsed"])
-    shaken = measured.assign(base_acceleration=("elapsed", noise))
-    result = compared(small_campaign, sine_test, shaken, predicted)
+def test_a_motion_that_is_no_sine_keeps_the_given_frequency_and_is_told(sine, shaken):
+    noise = np.random.default_rng(0).normal(0, 1, shaken[1].size)
+    result = sine(base_acceleration=noise)
     assert "no stretch of 3 periods" in result.attrs["warnings"][0].text
-    assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * 4.0 / small_campaign.block("prism").p)
+    assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * 4.0 / PRISM.p)
     assert "amplitude_ratio" not in result
 
 

@@ -5,7 +5,6 @@ import tomllib
 
 import pytest
 
-from colonnade.campaign import Channel
 from colonnade.campaign.settings import Processing
 from colonnade.campaign.specimen import Cone, Cylinder, Measured, Prism
 from colonnade.dynamics.kinematics import pole_position
@@ -14,7 +13,7 @@ from colonnade.stages.condition import ConditionInputs
 from colonnade.stages.contact import ContactInputs
 from colonnade.stages.ensemble import EnsembleInputs
 from colonnade.stages.ingest import IngestInputs
-from colonnade.stages.parts.transducers import outline, transducers
+from colonnade.stages.parts.transducers import outline
 from colonnade.stages.predict import PredictInputs
 from colonnade.stages.restitution import RestitutionInputs
 from colonnade.stages.rocking import RockingInputs
@@ -77,34 +76,6 @@ def test_a_part_that_a_stage_does_not_read_does_not_change_its_inputs(small_camp
     moved = setup.channels["top"].model_copy(update={"at": (0.043, 0.0, 0.3)})
     setups = {"frame": setup.model_copy(update={"channels": setup.channels | {"top": moved}})}
     assert _changed_by(small_campaign, setups=setups) == {"condition", "rocking"}
-
-
-AT = ["43 mm", "0 mm", "400 mm"]
-
-
-def _channel(quantity, unit, on, **more):
-    return Channel(**{"column": "a", "quantity": quantity, "unit": unit, "on": on, "direction": [1, 0, 0]} | more)
-
-
-CHANNELS = {
-    "top": _channel("displacement", "mm", "specimen", at=AT, relative_to="ground"),
-    "tilt.meter": _channel("angle", "deg", "specimen", direction=[0, 1, 0]),
-    "gyro": _channel("angular_velocity", "deg/s", "specimen", direction=[0, 1, 0]),
-    "block": _channel("acceleration", "g", "specimen", at=AT),
-    "table": _channel("acceleration", "g", "table"),
-    "stroke": _channel("displacement", "mm", "table"),
-    "temperature": _channel("other", "V", None, direction=None),
-}
-
-
-def test_each_channel_is_what_it_measures_by_the_name_of_its_variable():
-    found = transducers(CHANNELS)
-    assert set(found.positions) == {"top", "tilt_meter"}
-    assert (found.positions["top"].sensing, found.positions["top"].on_ground) == ("point", True)
-    assert found.positions["tilt_meter"].sensing == "angle"
-    assert set(found.gyroscopes) == {"gyro"}
-    assert set(found.accelerations) == {"table"}
-    assert set(found.displacements) == {"stroke"}
 
 
 CONE = Cone(shape="cone", base_diameter="97 mm", top_diameter="75 mm", height="0.5 m", mass="22 kg")
