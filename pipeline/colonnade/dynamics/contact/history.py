@@ -60,10 +60,14 @@ class EnergyBalance:
     dissipated: Array
 
     @property
+    def stored(self) -> Array:
+        """Kinetic, potential, strain and contact energy, J, shape (n,)."""
+        return np.asarray(self.kinetic + self.potential + self.strain + self.contact)
+
+    @property
     def residual(self) -> Array:
         """Stored and dissipated energy beyond what was there and what the table gave, J, shape (n,); 0 where exact."""
-        stored = self.kinetic + self.potential + self.strain + self.contact
-        return np.asarray(stored - stored[0] + self.dissipated - self.work)
+        return np.asarray(self.stored - self.stored[0] + self.dissipated - self.work)
 
     @property
     def relative_residual(self) -> float:
