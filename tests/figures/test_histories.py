@@ -37,11 +37,6 @@ def test_without_any_angle_the_panel_says_so():
     assert "no rocking angle" in drawn({}).texts[0].get_text()
 
 
-def test_the_critical_angle_is_marked_where_the_axis_reaches_it():
-    assert [text.get_text() for text in drawn({"measured": swing(2.0)}, 1.35).texts] == ["α"]
-    assert not drawn({"measured": swing(0.4)}, 0.5).texts
-
-
 @pytest.mark.parametrize(
     ("amplitude", "limit"),
     [(0.001, SMALLEST_RATIO), (0.5, 0.56), (1.0, 1.12), (8.4, LARGEST_RATIO)],

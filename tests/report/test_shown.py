@@ -98,20 +98,17 @@ def test_the_table_gives_each_test_its_row(overview, test, expected):
     assert re.fullmatch(expected, " ".join(cells.split())), cells
 
 
-def test_sine_tests_stand_by_frequency_and_amplitude(texts, overview):
+def test_sine_tests_stand_by_frequency_and_amplitude_and_of_one_frequency_have_no_map(texts, overview):
     for text in (overview, texts["specimens/prism.html"]):
         ladder = text[text.index('<table class="ladder">') :]
         assert words_of(ladder[: ladder.index("</table>") + 8]) == (
             "frequency Ω tests in order of A 3 Hz 3.347 A 3.78 overturned ≠ linear 4 warnings"
         )
-
-
-def test_one_frequency_gives_boundaries_and_no_map(texts, overview):
     assert 'id="map-prism"' not in overview
     assert "3.347 below 3.783 below 3.783" in words_of(texts["specimens/prism.html"])
 
 
-def test_a_test_says_what_was_done_and_found(texts):
+def test_a_test_says_what_was_done_and_found_and_compares_each_model(texts):
     words = words_of(texts["tests/span-2.0.html"])
     for expected in (
         "motion El Centro 1940 NS",
@@ -123,10 +120,10 @@ def test_a_test_says_what_was_done_and_found(texts):
     assert re.search(r"standard error of θ 0\.05\d mrad", words)
     assert re.search(r"largest slide 0\.01\d* mm, standard error 0\.002\d mm", words)
     assert re.search(r"at prototype scale, 1:20 duration 29\.1 s, largest slide 0\.2\d+ mm", words)
-
-
-def test_a_test_compares_each_model(texts):
-    words = words_of(texts["tests/span-2.0.html"])
+    assert re.search(
+        r"top LVDT <1> displacement 1625 at 250 Hz 0\.062 % failed spikes on 1 sample, the first at", words
+    )
+    assert re.search(r"top −?0\.0\d+ mm 0 s to 0\.5 s 0\.02\d mm 25 Hz – no redundancy", words)
     for model in ("linear", "nonlinear"):
         found = rf"{model} model rocking 0\.\d+ \S+ s (\+0\.0\d+|< 0\.001) 0\.0\d+ 6\.496 s (3\.9|4\.0)\d+ s \d+ "
         found += r"0\.93 \(identified\)"
@@ -138,19 +135,10 @@ def test_a_test_compares_each_model(texts):
 
 def test_the_ratios_of_a_sine_are_given_and_why_it_has_no_order(texts):
     words = words_of(texts[f"tests/{STRONG}.html"])
+    assert re.search(r"top .* mm 25 Hz – [\d.]+ × noise, \S+ % of the reading", words)
     assert "Ω = ω/p 3.347 A = a/(g tan α) 3.783" in words
     assert re.search(r"measured overturned – \S+ s – – – – \d+ –", words)
     assert "order of the response The specimen overturned." in words
-
-
-def test_a_test_shows_how_its_channels_were_treated(texts):
-    words = words_of(texts["tests/span-2.0.html"])
-    assert re.search(
-        r"top LVDT <1> displacement 1625 at 250 Hz 0\.062 % failed spikes on 1 sample, the first at", words
-    )
-    assert re.search(r"top −?0\.0\d+ mm 0 s to 0\.5 s 0\.02\d mm 25 Hz – no redundancy", words)
-    overturned = words_of(texts[f"tests/{STRONG}.html"])
-    assert re.search(r"top .* mm 25 Hz – [\d.]+ × noise, \S+ % of the reading", overturned)
 
 
 def test_a_test_without_results_has_no_picture_and_no_empty_table(texts):

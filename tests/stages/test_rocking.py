@@ -169,10 +169,7 @@ def _rms(error):
 
 SETS = {
     "a laser": ["laser"],
-    "a string pot": ["wire"],
-    "an inclinometer": ["inclinometer"],
     "a vertical pair": ["left", "right"],
-    "a gyroscope": ["gyroscope"],
     "two gyroscopes, one turned": ["gyroscope", "turned_gyroscope"],
     "all at once": ["laser", "wire", "inclinometer", "left", "right", "across", "gyroscope", "high"],
 }

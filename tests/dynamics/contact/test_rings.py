@@ -1,5 +1,7 @@
 """Round bodies on whole rings: nothing depends on the direction, and no polygon is left."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,21 @@ from colonnade.dynamics.contact.structure import Structure
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from on_contact import alone
-from polygon import polygon
+
+
+def polygon(body, around):
+    """Spread each ring of a body over so many nodes on its circle."""
+    turned = 2.0 * np.pi * np.arange(around) / around
+    radii, heights = (np.repeat(values, around) for values in (body.ring_radii, body.nodes[:, 2]))
+    angles = np.tile(turned, len(body.nodes))
+    return replace(
+        body,
+        nodes=np.column_stack((radii * np.cos(angles), radii * np.sin(angles), heights)),
+        node_mass=np.repeat(body.node_mass, around) / around,
+        node_area=np.repeat(body.node_area, around) / around,
+        ring_radii=np.zeros(len(radii)),
+    )
+
 
 GRAVITY = 9.81
 CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30, gravity=GRAVITY)

@@ -78,8 +78,6 @@ def test_all_that_tests_combine_is_drawn_and_told_to_those_who_do_not_see_it(dra
     assert told in described.picture(drawn_campaign, "prism", "frame").description
     assert "statue in frame: 8 transducers." in picture.description
 
-
-def test_a_campaign_without_tests_has_nothing_to_draw(drawn_campaign):
     drawn_campaign.tests.clear()
     with pytest.raises(CampaignError, match="no test"):
         described.of_campaign(drawn_campaign)
@@ -117,11 +115,8 @@ def test_a_draft_is_drawn_on_a_body_that_stands_in():
     }
     assert places[0.043, 0.44] != "white"
     assert "white" in places.values()
-
-
-def test_a_draft_with_markers_alone_is_drawn_without_transducers():
-    elevation = described.of_draft('[setups.setup.markers.m1]\non = "?"\n').figure.axes[0]
-    assert not any("m1" in text.get_text() for text in elevation.texts)
+    of_markers = described.of_draft('[setups.setup.markers.m1]\non = "?"\n').figure.axes[0]
+    assert not any("m1" in text.get_text() for text in of_markers.texts)
 
 
 def test_bodies_of_an_assembly_are_drawn_where_they_stand(tmp_path):

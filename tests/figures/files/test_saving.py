@@ -35,9 +35,6 @@ def test_a_file_that_is_not_ours_is_not_changed(tmp_path, ending):
     with pytest.raises(CampaignError, match="was not changed"):
         save(picture(), path)
     assert path.read_bytes() == b"of mine\n"
-
-
-def test_a_table_of_another_figure_is_not_changed(tmp_path):
     path = save(picture(), tmp_path / "one.csv")
     with pytest.raises(CampaignError, match="other columns"):
         save(picture("frequency (Hz)"), path)

@@ -24,16 +24,6 @@ def test_a_long_curve_is_thinned_and_keeps_its_ends_and_extremes():
     assert (np.diff(thinned.time) > 0).all()
 
 
-def test_a_gap_stays_a_gap():
-    curve = noisy()
-    curve.values[20_000:30_000] = np.nan
-    thinned = envelope(curve)
-    inside = (thinned.time > 20.2) & (thinned.time < 29.8)
-    assert inside.sum() > 50
-    assert np.isnan(thinned.values[inside]).all()
-    assert np.isfinite(thinned.values[~inside]).sum() > 800
-
-
 TIME = np.arange(50_000) / 1000
 NOISE = np.random.default_rng(1).normal(size=TIME.size)
 

@@ -8,13 +8,7 @@ import chain
 from chain import measured
 from colonnade.errors import StageError
 from colonnade.identification.restitution.arcs import find_impacts
-from colonnade.stages.parts import beginning as driving
-from colonnade.stages.parts.beginning import (
-    AT_REST,
-    NOT_RECORDED,
-    RECORDED,
-    base_acceleration,
-)
+from colonnade.stages.parts.beginning import AT_REST, NOT_RECORDED, RECORDED, base_acceleration, other_axes
 from colonnade.stages.parts.reference_motions import load, reference_files
 from colonnade.stages.parts.transducers import Transducers, base_motion
 from every import every
@@ -139,27 +133,19 @@ def _gap(values):
     return holed
 
 
-def test_a_record_that_is_missing_is_refused_with_what_to_add():
+def test_a_record_that_is_missing_is_refused_with_what_to_add_and_missing_samples_with_the_first():
     with pytest.raises(StageError, match=r'was not recorded in this test.*on = "table"'):
         base_acceleration(_rocking())
-
-
-def test_missing_samples_are_refused_with_the_first():
     with pytest.raises(StageError, match=r"missing 3 of 200 samples, the first at 0\.500 s"):
         base_acceleration(_rocking(base_acceleration=_gap(WAVE)))
 
 
-def taken(**variables):
-    return driving.other_axes(_rocking(**variables), WAVE, gravity=9.81, is_in_space=True)
-
-
-def test_a_model_in_space_takes_the_motion_across_if_it_is_whole():
-    across, vertical, warnings = taken(transverse_base_acceleration=WAVE)
-    assert across is not None
-    assert (vertical, warnings) == (None, [])
-    across, _, (told,) = taken(transverse_base_acceleration=_gap(WAVE))
-    assert across is None
-    assert told.kind == "motion left out"
+@every(("values", "kinds"), [(WAVE, []), (_gap(WAVE), ["motion left out"])])
+def test_a_model_in_space_takes_the_motion_across_if_it_is_whole(values, kinds):
+    recorded = _rocking(transverse_base_acceleration=values)
+    across, vertical, warnings = other_axes(recorded, WAVE, gravity=9.81, is_in_space=True)
+    assert (across is None, vertical) == (bool(kinds), None)
+    assert [each.kind for each in warnings] == kinds
 
 
 LONGER = np.arange(0.0, 4.0, 0.005)
