@@ -309,6 +309,8 @@ class Behind:
 def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
     """Run a campaign, and tell how it ended; end with the watch."""
     settle_in(watch)
+    # Joblib's tracker, a process of its own, removes what a killed run leaves behind, and need not say so.
+    os.environ["PYTHONWARNINGS"] = "ignore:resource_tracker:UserWarning"
     if hasattr(os, "nice"):
         os.nice(NICENESS)
     try:
