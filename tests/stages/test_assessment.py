@@ -55,6 +55,12 @@ def test_a_stiffer_rebound_overturns_earlier_or_later_and_is_listed(answer):
     assert (smaller, larger) == pytest.approx((answer.restitution.value - 0.02, answer.restitution.value + 0.02))
 
 
+def test_west_is_exact_without_vertical_motion(answer):
+    west = next(each for each in answer.criteria if each.criterion == "west")
+    assert (west.false_alarms, west.missed) == (0, 0)
+    assert west.right_overturned + west.right_stands == 8 * 5
+
+
 def test_the_result_holds_what_it_was_made_from(stored, answer):
     assert [each.record for each in answer.records_used] == stored["record"].to_numpy().tolist()
     used = answer.records_used[0]

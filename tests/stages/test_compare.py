@@ -126,8 +126,9 @@ def sine(small_campaign, shaken):
     models = ("linear", "nonlinear")
     predicted = {model: chain.predicted(small_campaign, test, measured, pooled, model) for model in models}
 
-    def compared(changes=None, **channels):
+    def compared(changes=None, outcome="rocking", **channels):
         seen = measured.assign({name: ("elapsed", values) for name, values in channels.items()})
+        seen = (seen if outcome else seen.drop_vars("rocking_angle")).assign_attrs(outcome=outcome)
         return chain.compared(small_campaign, test.model_copy(update=changes), seen, predicted)
 
     return compared
@@ -164,6 +165,14 @@ def test_another_frequency_or_amplitude_than_the_given_one_is_told_and_the_recor
     assert len(told) == (said is not None)
     assert all(said in text for text in told)
     assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
+
+
+@every(("outcome", "words"), [("overturned", "overturned"), ("no-rocking", "did not rock"), ("", "No rocking angle")])
+def test_what_overturned_did_not_rock_or_was_not_measured_has_no_order(outcome, words, sine):
+    result = sine(outcome=outcome)
+    assert result.attrs["response_order"] == ""
+    assert words in result.attrs["response_order_reason"]
+    assert result["predicted_response_order"].to_numpy()[0] == "1"
 
 
 def test_a_motion_that_is_no_sine_keeps_the_given_frequency_and_is_told(sine, shaken):

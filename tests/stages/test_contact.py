@@ -8,7 +8,7 @@ import chain
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactLaw, rigid_body
-from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO
+from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.errors import StageError
 from colonnade.identification.restitution.identify import identify_restitution
@@ -55,6 +55,12 @@ def test_a_laboratory_identifies_the_e_that_was_asked_for(law, history):
     time, angle = history.time[::every], history.angle[::every]
     noise = np.random.default_rng(3).normal(0.0, 1e-3 * PRISM.critical_angle, time.size)
     assert identify_restitution(time, angle + noise, PRISM).value == pytest.approx(0.976, abs=3e-4)
+
+
+def test_the_mean_velocity_ratio_is_another_e_and_is_stored_with_it(law, history):
+    ratio = float(law["contact_velocity_ratio"])
+    assert ratio == pytest.approx(free_restitution(history), abs=3e-4)
+    assert float(law["contact_restitution"]) - ratio > 4e-4
 
 
 def test_a_law_says_which_e_it_gives(law):

@@ -153,6 +153,20 @@ def test_a_measured_angle_has_the_errors_of_its_settings_and_of_its_noise(measur
     assert (found.start, found.start_error, found.start_deviation) == (None, 0.0, 0.0)
 
 
+def test_an_integrated_angle_has_the_deviation_of_its_integration_instead_of_noise():
+    deviation = 1e-4 * np.sqrt(TIME - TIME[0])
+    found = errors_of(rocking().assign(angle_deviation=("elapsed", deviation)))
+    np.testing.assert_array_equal(found.drift, deviation)
+    assert found.noise == 0.0
+
+
+def test_a_start_that_was_measured_is_as_uncertain_as_the_angle():
+    released = replace(BEGINNING, theta0=0.1)
+    found = measurement_errors(rocking(), released, inputs(free_vibration=True))
+    assert (found.start, found.start_error) == (0.1, pytest.approx(5e-4))
+    assert found.start_deviation == pytest.approx(np.sqrt((0.005 * 0.1) ** 2 + (5e-4 * ALPHA) ** 2 + 5e-4**2))
+
+
 def ensemble_of(members=40, *, overturned=(), scatter=1e-3, peaks=None):
     """Runs that are the central one and a constant of their own, or reach a peak of their own (in α) once."""
     offsets = np.random.default_rng(3).normal(0, scatter, (members, 1))

@@ -17,6 +17,7 @@ from colonnade.signals.quality import Flag
 from colonnade.stages.ingest import (
     IngestInputs,
     contradictions,
+    dimension_of,
     find_column,
     recorded_at,
     reviewed,
@@ -189,6 +190,23 @@ def test_units_that_differ_are_serious_unless_a_recorders_own_is_explained_or_a_
     assert [(each.kind, each.severity) for each in found] == [("unit", "serious")] * is_told
     for each in found:
         assert f'channel top: free-01.csv says "{of_file}" for column "{heading}"' in each.text
+
+
+@every(
+    ("known", "changes", "dimension"),
+    [
+        (None, {}, "elapsed"),
+        (None, {"recorder": "daq-2"}, "elapsed_daq_2"),
+        (None, {"time": "Seconds", "recorder": "daq-2"}, "elapsed_top_left"),
+        (FILE_TIME.copy(), {}, "elapsed"),
+        (FILE_TIME + 1e-9, {}, "elapsed_top_left"),
+    ],
+)
+def test_a_channel_is_on_the_clock_of_its_recorder_or_its_own_and_shares_it_only_with_the_same_times(
+    known, changes, dimension
+):
+    there = {} if known is None else {"elapsed": known}
+    assert dimension_of(there, FILE_TIME, "top-left", channel(**changes)) == dimension
 
 
 TIME = np.arange(0.0, 10.0, 0.01)

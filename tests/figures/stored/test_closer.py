@@ -91,6 +91,19 @@ def test_measured_and_each_model_move(moving):
     assert movie.description == "measured and predicted; base: recorded acceleration integrated twice."
 
 
+def test_it_shows_what_the_page_shows_the_zero_taken_off(reported):
+    one = reported["span-2.0"]
+    compared = one.stored.datasets["compare", None].assign(zero_offset=0.02)
+    one = replace(one, stored=replace(one.stored, datasets=one.stored.datasets | {("compare", None): compared}))
+    movie = animation(one)
+    times, ratio = one.measured_ratio()
+    angles = np.interp(np.linspace(times[0], times[-1], movie.frames), times, ratio * PRISM.critical_angle)
+    frame = int(np.nanargmax(angles))
+    movie.show(frame)
+    right, left = movie.figure.axes[0].patches[0].get_xy()[:2]  # of the base, which lies along x at rest
+    assert abs(np.arctan(np.divide(*(left - right)[::-1]))) == pytest.approx(abs(angles[frame]), rel=1e-6)
+
+
 def test_without_an_angle_nothing_moves(moving):
     assert moving("later") is None
     assert moving("span-2.0", without=("predict", "rocking")) is None

@@ -310,6 +310,7 @@ def test_every_picture_of_every_page_can_be_taken_along(visit, address):
     with page.expect_download() as download:
         row.get_by_role("button", name="as PNG").click()
     assert download.value.path().read_bytes().startswith(b"\x89PNG")
+    assert download.value.suggested_filename.endswith(".png")
 
 
 def test_without_scripts_alone_and_on_paper_the_picture_stands(visit, page, browser, report_folder, tmp_path):
