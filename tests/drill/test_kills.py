@@ -1,4 +1,4 @@
-"""Kills at random instants of a run on two workers: every file is whole, and the next run gives what it would have."""
+"""Kills at random instants of a run on two workers, and two runs at once: nothing is damaged, nothing is lost."""
 
 import contextlib
 import os
@@ -7,7 +7,6 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from collections import Counter
 from functools import partial
@@ -15,7 +14,7 @@ from functools import partial
 import psutil
 import pytest
 
-from processes import wait_until
+from processes import started, wait_until
 
 pytestmark = [
     pytest.mark.drill,
@@ -24,6 +23,8 @@ pytestmark = [
 
 KILLS = int(os.environ.get("DRILL_KILLS", "500"))
 SEED = 5
+ROUNDS = 5
+"""Two runs at once, so often."""
 PATIENCE = 60.0
 """Seconds within which a run that lost a worker has to end."""
 ROUND = 50
@@ -33,20 +34,14 @@ SHARES = (3, 1, 1)
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
 
-def started(small, complaints):
+def started_anew(small, complaints):
     """Start a run from nothing; it and its two workers, as soon as they are there."""
     for folder in (small.layout.processed, small.folder / "report"):
         shutil.rmtree(folder, ignore_errors=True)
     with complaints.open("w", encoding="utf-8") as stderr:
-        command = [sys.executable, "-m", "colonnade", "run", str(small.folder), "--workers", "2"]
-        run = psutil.Popen(
-            command,
-            stdout=subprocess.DEVNULL,
-            stderr=stderr,
-            env=os.environ | ONE_THREAD,
-            start_new_session=True,
-        )
-    while len(workers := [each for each in run.children() if is_worker(each)]) < 2:
+        options = {"stdout": subprocess.DEVNULL, "stderr": stderr, "env": os.environ | ONE_THREAD}
+        run = started("run", small.folder, "--workers", 2, start_new_session=True, **options)
+    while len(workers := [each for each in psutil.Process(run.pid).children() if is_worker(each)]) < 2:
         assert run.poll() is None, complaints.read_text(encoding="utf-8")
         time.sleep(0.01)
     return run, workers
@@ -90,7 +85,7 @@ def expect_whole(small, expected, expected_pages):
 
 def undisturbed_duration(small, complaints):
     """Seconds that a run takes that is let alone, once its workers are there."""
-    run, _ = started(small, complaints)
+    run, _ = started_anew(small, complaints)
     began = time.perf_counter()
     assert run.wait() == 0
     return time.perf_counter() - began
@@ -106,7 +101,7 @@ def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(undisturbe
             durations.append(min(undisturbed_duration(small, complaints) for _ in range(3)))
         (tmp_path / "reached").write_text(f"{number} of {KILLS}\n")
         killed = chance.choices(KILLED, SHARES)[0]
-        run, workers = started(small, complaints)
+        run, workers = started_anew(small, complaints)
         time.sleep(chance.uniform(0.0, durations[-1]))
         where = (
             "after" if small.layout.report.exists() else "inside" if any(small.layout.tests.glob("*/*")) else "before"
@@ -136,3 +131,30 @@ def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(undisturbe
             told = ", ".join(f"{counts[part]} {part}" for part in ("before", "inside", "after"))
             print(f"  {name}: {told} the writing of results")
     assert sum(counts["inside"] for counts in fell.values()) > 0.2 * KILLS
+
+
+def test_of_two_runs_at_once_one_works_and_the_other_is_refused(undisturbed, copied, tmp_path, capsys):
+    expected, summary, chance = undisturbed.contents(), undisturbed.summary(), random.Random(3)
+    refused = 0
+    for number in range(ROUNDS):
+        small = copied(tmp_path / str(number))
+        runs = [started("run", small.folder, "--workers", 2)]
+        time.sleep(chance.uniform(0.0, 1.0))
+        runs.append(started("run", small.folder, "--workers", 2))
+        ended = [(run, *run.communicate(timeout=300)) for run in runs]
+        assert sorted({0, *(run.returncode for run, _, _ in ended)}) in ([0], [0, 1])
+        assert any(run.returncode == 0 for run, _, _ in ended)
+        for run, _, complaints in ended:
+            assert "Traceback" not in complaints
+            if run.returncode:
+                refused += 1
+                assert "this campaign is already being run, by" in complaints
+                other = next(each for each in runs if each is not run)
+                assert f"process {other.pid} on" in complaints or "by another process" in complaints
+        assert small.contents() == expected
+        assert small.summary() == summary
+        assert not list(small.folder.rglob("*.partial"))
+        shutil.rmtree(small.folder)
+    with capsys.disabled():
+        print(f"\n{ROUNDS} times two runs at once: {refused} were refused")
+    assert refused > ROUNDS // 2

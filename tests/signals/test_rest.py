@@ -9,16 +9,11 @@ NOISE = np.random.default_rng(0).normal(0, 1e-5, TIME.size)
 DECAY = NOISE + np.where(TIME < 4, 0.01 * np.sin(9 * TIME), 0.0)
 
 
-def test_the_quiet_end_of_a_decay_is_rest():
+def test_the_quiet_end_of_a_decay_is_rest_and_its_moving_start_is_not():
     window = find_rest(TIME, {"top": (DECAY, 1e-5)}, end=True, duration=0.5)
-    assert window.quiet
-    assert window.stop == TIME[-1]
-
-
-def test_a_moving_start_is_not_rest():
+    assert (window.quiet, window.stop) == (True, TIME[-1])
     window = find_rest(TIME, {"top": (DECAY, 1e-5), "bottom": (NOISE, 1e-5)}, end=False, duration=0.5)
-    assert not window.quiet
-    assert window.start == TIME[0]
+    assert (window.quiet, window.start) == (False, TIME[0])
 
 
 def test_what_a_transducer_drifts_between_two_rests_is_told():

@@ -85,17 +85,12 @@ def test_without_a_report_there_is_nothing_to_take_along(folder, tmp_path, write
     assert not (tmp_path / "all.zip").exists()
 
 
-@pytest.fixture
-def campaign(filled_campaign):
-    return filled_campaign[0]
-
-
 SUBJECTS = {"span-2.0": ("angle", "test"), "prism": ("impacts", "specimen"), "free-01": ("impacts", "test")}
 
 
 @every(("subject", "expected"), (SUBJECTS | {None: ("agreement", "campaign")}).items())
-def test_a_figure_is_of_what_its_subject_is(campaign, subject, expected):
-    entry, found = chosen(campaign, expected[0], subject)
+def test_a_figure_is_of_what_its_subject_is(filled_campaign, subject, expected):
+    entry, found = chosen(filled_campaign[0], expected[0], subject)
     assert ((entry.name, entry.of), found) == (expected, subject or "")
 
 

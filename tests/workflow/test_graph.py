@@ -17,21 +17,18 @@ from every import every
 from raw_files import Column, diadem
 
 
-@pytest.fixture
-def graph(small):
-    return Graph(load(small.folder), small.layout, Catalogue(small.layout))
+def test_the_code_is_hashed_again_only_if_a_source_changed(small, monkeypatch):
+    campaign, catalogue = load(small.folder), Catalogue(small.layout)
 
+    def codes(catalogue):
+        return [step.code for step in Graph(campaign, small.layout, catalogue).of_test(campaign.tests["pulse-01"])]
 
-def test_the_code_is_hashed_again_only_if_a_source_changed(graph, monkeypatch):
-    test = graph.campaign.tests["pulse-01"]
-    before = [step.code for step in graph.of_test(test)]
-    graph.catalogue.save()
+    before = codes(catalogue)
+    catalogue.save()
     monkeypatch.setattr("colonnade.workflow.product.code_hash", lambda *given, **more: "parsed again")
-    again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout))
-    assert [step.code for step in again.of_test(test)] == before
+    assert codes(Catalogue(small.layout)) == before
     monkeypatch.setattr("colonnade.workflow.product.package_hash", lambda: "other sources")
-    again = Graph(graph.campaign, graph.layout, Catalogue(graph.layout))
-    assert {step.code for step in again.of_test(test)} == {"parsed again"}
+    assert set(codes(Catalogue(small.layout))) == {"parsed again"}
 
 
 def result(*stages, **given):

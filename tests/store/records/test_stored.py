@@ -21,12 +21,8 @@ def dataset():
     )
 
 
-@pytest.fixture
-def stored():
-    return Stored({("rocking", None): dataset(), ("compare", None): dataset(), ("predict", "linear"): dataset()})
-
-
-def test_what_is_not_there_is_empty(stored):
+def test_what_is_not_there_is_empty():
+    stored = Stored({("rocking", None): dataset(), ("compare", None): dataset()})
     assert isnan(stored.value("rocking", "slide"))
     assert isnan(stored.value("rocking", "rocking_angle"))  # no scalar
     assert isnan(stored.compared("nrmse", "contact"))

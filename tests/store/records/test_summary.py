@@ -6,7 +6,6 @@ import io
 import pytest
 
 from colonnade.campaign.forms import summary as form
-from colonnade.errors import StoreError
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import as_csv, map_points, read_summary, records_of_specimens, records_of_tests
 
@@ -37,9 +36,6 @@ def test_a_summary_is_read_back_as_written(tmp_path):
     layout.processed.mkdir()
     layout.summary_json.write_text(SUMMARY.text(), encoding="utf-8")
     assert read_summary(layout) == SUMMARY
-    layout.summary_json.write_text("[" * 100_000, encoding="utf-8")
-    with pytest.raises(StoreError, match="was altered or damaged"):
-        read_summary(layout)
 
 
 def sine(**changes):
@@ -81,6 +77,7 @@ def test_each_part_of_a_record_has_columns_of_its_own_and_nothing_is_empty():
     assert (first["restitution_history_linear_value"], first["prototype_duration"]) == ("0.91", "4.5")
     assert (second["test"], second["restitution_value"], second["linear_outcome"]) == ("sine", "", "")
     assert "not in the table" not in first.values()
+    assert as_csv(form.Summary(campaign="one", colonnade="0", specimens={}, tests={})) == "test\n"
 
 
 @pytest.mark.parametrize("text", ["=HYPERLINK(1)", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "\r=1"])
@@ -90,7 +87,3 @@ def test_text_that_a_spreadsheet_would_calculate_is_quoted(text):
     expected = f"'{text}".replace("\r", "\n")
     assert (row["reason"], row["warnings"]) == (expected, f"note: {text}".replace("\r", "\n"))
     assert float(row["peak_ratio"]) == -0.5
-
-
-def test_a_campaign_without_tests_has_a_heading():
-    assert as_csv(form.Summary(campaign="one", colonnade="0", specimens={}, tests={})) == "test\n"
