@@ -93,7 +93,11 @@ def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, soon):
         list(spread(whose, [1], Where(scheduler=scheduler)))
 
 
-@pytest.mark.parametrize("address", [f"tcp://127.0.0.1:{free_port()}", "no address", "127.0.0.1:notaport"])
+@pytest.mark.parametrize(
+    "address",
+    [f"tcp://127.0.0.1:{free_port()}", "no address", "127.0.0.1:notaport"],
+    ids=["nobody", "no-address", "no-port"],
+)
 def test_what_is_no_scheduler_is_told(soon, address):
     with pytest.raises(ColonnadeError, match="no Dask scheduler answers there"):
         list(spread(whose, [1], Where(scheduler=address)))
