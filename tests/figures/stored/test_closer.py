@@ -69,23 +69,13 @@ def test_an_earthquake_is_enlarged_about_its_largest_angle(reported):
     assert picture.note == "Right: the rocking angle, about the largest angle."
 
 
-@pytest.fixture
-def moving(reported):
-    def of(name, *, without=()):
-        one = reported[name]
-        kept = {key: data for key, data in one.stored.datasets.items() if key[0] not in without}
-        return animation(replace(one, stored=replace(one.stored, datasets=kept)))
-
-    return of
-
-
 def named(movie):
     (legend,) = movie.figure.legends
     return [text.get_text() for text in legend.get_texts()]
 
 
-def test_measured_and_each_model_move(moving):
-    movie = moving("span-2.0")
+def test_measured_and_each_model_move(reported):
+    movie = animation(reported["span-2.0"])
     assert named(movie) == ["measured", "linear model", "nonlinear model"]
     assert movie.title == "span-2.0: the rocking block"
     assert movie.description == "measured and predicted; base: recorded acceleration integrated twice."
@@ -104,6 +94,7 @@ def test_it_shows_what_the_page_shows_the_zero_taken_off(reported):
     assert abs(np.arctan(np.divide(*(left - right)[::-1]))) == pytest.approx(abs(angles[frame]), rel=1e-6)
 
 
-def test_without_an_angle_nothing_moves(moving):
-    assert moving("later") is None
-    assert moving("span-2.0", without=("predict", "rocking")) is None
+def test_without_an_angle_nothing_moves(reported):
+    one = reported["span-2.0"]
+    kept = {key: data for key, data in one.stored.datasets.items() if key[0] not in ("predict", "rocking")}
+    assert animation(reported["later"]) is animation(replace(one, stored=replace(one.stored, datasets=kept))) is None
