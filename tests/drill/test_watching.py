@@ -17,8 +17,9 @@ import psutil
 import pytest
 
 import deliveries
+from colonnade.store.layout import Layout
 from colonnade.workflow import run
-from processes import wait_until
+from processes import is_running, wait_until
 
 pytestmark = pytest.mark.drill
 
@@ -196,6 +197,7 @@ def test_nothing_is_lost_when_the_watch_is_killed(tmp_path, capsys):
         watch.process.wait()
     with watching(folder) as watch:
         wait_until(lambda: is_all_done(folder, names, set()), 20 * PATIENCE, pause=2.0)
+    wait_until(lambda: not is_running(Layout(folder)), PATIENCE)  # what ran behind the last killed one ends soon
     assert all(stage.action != "done" for stage in run(folder, workers=2).stages)
     assert not list(folder.rglob("*.partial"))
     with capsys.disabled():

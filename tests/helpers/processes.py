@@ -4,11 +4,23 @@ import subprocess
 import sys
 import time
 
+from colonnade.errors import StoreError
+from colonnade.workflow.lock import only_run
+
 
 def started(*arguments, **options):
     """Start a command."""
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "encoding": "utf-8"} | options
     return subprocess.Popen([sys.executable, "-m", "colonnade", *map(str, arguments)], **options)
+
+
+def is_running(layout):
+    """Whether a process runs the campaign."""
+    try:
+        with only_run(layout):
+            return False
+    except StoreError:
+        return True
 
 
 def wait_until(is_so, seconds=300.0, missing=lambda: "", pause=0.02):

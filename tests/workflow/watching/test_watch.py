@@ -16,7 +16,7 @@ from colonnade.workflow.watching import watch as module
 from colonnade.workflow.watching.measure import Line
 from colonnade.workflow.watching.watch import Behind, Ended, watch
 from prism import entry
-from processes import wait_until
+from processes import is_running, wait_until
 
 pytestmark = pytest.mark.whole
 
@@ -170,14 +170,6 @@ def test_a_run_that_is_killed_says_so(small):
     assert found.problem == "It ended with exit code -9."
 
 
-def is_free(layout):
-    try:
-        with only_run(layout):
-            return True
-    except StoreError:
-        return False
-
-
 WATCH = """
 import sys, time
 from pathlib import Path
@@ -201,7 +193,7 @@ def test_it_ends_when_the_watch_is_killed(start, small):
         assert holder.exists()
         watch.kill()
         watch.wait()
-        wait_until(lambda: is_free(small.layout))
+        wait_until(lambda: not is_running(small.layout))
     finally:
         if run:
             with suppress(ProcessLookupError):
