@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 import release
@@ -57,12 +58,9 @@ def test_a_release_is_a_commit_and_a_tag_with_what_was_built(tree, monkeypatch, 
 
 
 def test_a_release_that_fails_leaves_the_tree_as_before(tree, monkeypatch, capsys):
-    def interrupted(*arguments):
-        raise KeyboardInterrupt
-
     before = git(tree, "rev-parse", "HEAD")
     monkeypatch.setattr(release, "build", built)
-    monkeypatch.setattr(release, "install", interrupted)
+    monkeypatch.setattr(release, "install", Mock(side_effect=KeyboardInterrupt))
     with pytest.raises(KeyboardInterrupt):
         release.release("0.2.0", [sys.executable], FITS)
     assert (git(tree, "rev-parse", "HEAD"), git(tree, "status", "--porcelain"), git(tree, "tag")) == (before, "", "")

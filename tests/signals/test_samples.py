@@ -27,14 +27,11 @@ def test_missing_values_lie_on_the_line_between_their_neighbours():
     np.testing.assert_allclose(filled_in(values), [1.0, 1.0, 2.0, 3.0, 4.0, 4.0])
 
 
-def test_results_come_in_the_order_of_the_items_whoever_is_ready_first():
+def test_results_come_in_the_order_of_the_items_whoever_is_ready_first_and_an_error_of_one_is_raised():
     def slower_first(number):
         time.sleep(0.002 * (8 - number))
         return number
 
     assert side_by_side(slower_first, range(8)) == list(range(8))
-
-
-def test_an_error_of_one_item_is_raised():
     with pytest.raises(ZeroDivisionError):
         side_by_side(lambda number: 1 / number, [1, 0, 2])

@@ -52,14 +52,10 @@ def test_a_unit_that_nobody_knows_is_not_spelt():
     assert udunits("furlong per fortnight") == ""
 
 
-def channel(**attributes):
-    return xr.DataArray(np.zeros(3), dims="elapsed", attrs={"channel": "top", "quantity": "displacement"} | attributes)
-
-
 def test_a_channel_is_described_with_what_goes_with_it():
     dataset = xr.Dataset(
         {
-            "top": channel(recorded_unit="V"),
+            "top": ("elapsed", np.zeros(3), {"channel": "top", "quantity": "displacement", "recorded_unit": "V"}),
             "top_recorded": ("elapsed", np.zeros(3)),
             "top_quality": ("elapsed", np.ones(3, dtype=np.int64)),
         },

@@ -34,12 +34,10 @@ def test_free_vibrations_are_advised_from_the_pooled_restitution_of_a_specimen_t
         advised(undisturbed, "prsm")
 
 
-def test_after_a_test_only_its_own_kind_is_advised(undisturbed):
-    campaign, summary = load(undisturbed.folder), read_summary(undisturbed.layout)
-    assert summary is not None
-    (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests)
-    assert free.kind == "free-vibration"
-    assert advise_after(campaign, undisturbed.layout, "pulse-01", summary.tests) == []
+def test_after_a_test_only_its_own_kind_is_advised(undisturbed, campaign):
+    tests = read_summary(undisturbed.layout).tests
+    assert [each.kind for each in advise_after(campaign, undisturbed.layout, "free-01", tests)] == ["free-vibration"]
+    assert advise_after(campaign, undisturbed.layout, "pulse-01", tests) == []
 
 
 def test_the_report_advises_while_tests_are_planned(small, monkeypatch):
@@ -125,7 +123,6 @@ def as_earthquake(small, setup=""):
     small.edit("[setups.frame.channels]", f"[setups.frame]\n{setup}\n[setups.frame.channels]")
     small.edit("members = 20", "members = 100\ngain = 0.05")  # one of 20 is too large a risk
     campaign, summary = load(small.folder), read_summary(small.layout)
-    assert summary is not None
     (advice,) = advise_earthquakes(campaign, small.layout, "prism", summary.tests)
     return campaign, summary, advice
 
