@@ -68,7 +68,7 @@ def test_values_at_the_ends_of_what_is_written(found, said):
 
 
 class Told(text.Digested):
-    ESSENCE = "outcome, share, angle rad, mass kg"
+    _ESSENCE = "outcome, share, angle rad, mass kg"
     outcome, share, angle, mass = "rocking", None, np.array([0.1, np.nan, 0.25]), 2.5
 
 

@@ -98,7 +98,7 @@ class Assembly(Digested):
     (['column1', 'column2', 'column3', 'beam1', 'beam2'], ('column2', 'column3'))
     """
 
-    ESSENCE = "bodies, height m, gravity m/s²"
+    _ESSENCE = "bodies, height m, gravity m/s²"
 
     bodies: Mapping[str, Placed]
 

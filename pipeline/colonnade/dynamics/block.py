@@ -115,7 +115,7 @@ class Block(Digested):
     <Block: critical_angle 0.1974 rad, p 5.378 rad/s, restitution 0.9422, mass 30 kg, is_symmetric True>
     """
 
-    ESSENCE = "critical_angle rad, p rad/s, restitution, mass kg, is_symmetric"
+    _ESSENCE = "critical_angle rad, p rad/s, restitution, mass kg, is_symmetric"
 
     mass: float
     gravity: float

@@ -90,7 +90,7 @@ class Ensemble(Digested):
     <Ensemble: overturning_probability 0, peak_ratio 0.119 to 0.135, time 0 to 3 s>
     """
 
-    ESSENCE = "overturning_probability, peak_ratio, time s"
+    _ESSENCE = "overturning_probability, peak_ratio, time s"
 
     time: Array
     central: Array

@@ -48,7 +48,7 @@ class History(Digested):
     <History: outcome rocking, peak_ratio 0.5, overturning_time –, impacts 28, model linear>
     """
 
-    ESSENCE = "outcome, peak_ratio, overturning_time s, impacts, model"
+    _ESSENCE = "outcome, peak_ratio, overturning_time s, impacts, model"
 
     block: Block
     time: Array

@@ -43,7 +43,7 @@ class Motion(Digested):
     <Motion: duration 0.02 s, dt 0.01 s, peak 2 m/s²>
     """
 
-    ESSENCE = "duration s, dt s, peak m/s²"
+    _ESSENCE = "duration s, dt s, peak m/s²"
 
     def __init__(
         self,

@@ -144,7 +144,7 @@ class OverFrequency(Digested):
         All that the limits depend on.
     """
 
-    ESSENCE = "frequency_ratio, lower, upper"
+    _ESSENCE = "frequency_ratio, lower, upper"
 
     frequency_ratio: Array
     lower: Array

@@ -54,7 +54,7 @@ class RockingSpectrum(Digested):
     <RockingSpectrum: model nonlinear, critical_angle 0.2 to 0.2 rad, period 1 to 2 s, peak_ratio 0.259 to 0.259>
     """
 
-    ESSENCE = "model, critical_angle rad, period s, peak_ratio"
+    _ESSENCE = "model, critical_angle rad, period s, peak_ratio"
 
     critical_angle: Array
     period: Array

@@ -212,12 +212,12 @@ def joined(names: Sequence[str], last: str = "and") -> str:
 class Digested:
     """A result whose `repr` shows what is most worth knowing in a line, also in a notebook."""
 
-    ESSENCE = ""
+    _ESSENCE = ""
     """Attributes, each with its unit."""
 
     def digest(self) -> Mapping[str, str]:
         """Return them by name, with units."""
-        named = [each.partition(" ") for each in self.ESSENCE.split(", ")]
+        named = [each.partition(" ") for each in self._ESSENCE.split(", ")]
         return {name: shown(getattr(self, name), unit) for name, _, unit in named}
 
     def __repr__(self) -> str:

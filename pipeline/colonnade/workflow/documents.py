@@ -171,10 +171,8 @@ def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -
     picture = entry.draw(found)
     if picture is None:
         failures = "; ".join(f"{failure.stage}: {failure.text}".removeprefix(": ") for failure in found.failures)
-        why = f" The results say: {failures}." if failures else ""
+        why = failures or entry.needs
         if not layout.summary_json.is_file():
-            why = " Nothing has been run yet; run `colonnade run` first."
-        raise CampaignError(
-            f'{subject or campaign.campaign}: there is nothing to draw for "{entry.name}". {entry.needs}{why}'
-        )
+            why = "Nothing has been run yet; run `colonnade run` first."
+        raise CampaignError(f'{subject or campaign.campaign}: there is nothing to draw for "{entry.name}". {why}')
     return picture

@@ -39,6 +39,7 @@ def only_run(layout: Layout) -> Iterator[str]:
     StoreError
         If another run holds it, or the folders of results cannot be written or lead elsewhere through a link.
     """
+    left = [*half_written(layout.processed), *half_written(layout.report.parent)]  # refuses a folder that is a link
     try:
         if layout.lock.is_symlink():
             layout.lock.unlink()
@@ -61,7 +62,7 @@ def only_run(layout: Layout) -> Iterator[str]:
         _expect_own(layout)
         since = datetime.now().astimezone().isoformat("T", "seconds")
         write_text(layout.lock_holder, f"{run_id} process {os.getpid()} on {platform.node()}, since {since}\n")
-        for each in (*half_written(layout.processed), *half_written(layout.report.parent)):
+        for each in left:
             remove(each)
         yield run_id
     finally:

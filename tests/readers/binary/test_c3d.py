@@ -2,16 +2,26 @@
 
 import numpy as np
 import pytest
+from ezc3d import c3d
 
 from colonnade.campaign.draft.write import draft
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
-from whole_files import TABLE, write
+
+TABLE = np.random.default_rng(5).random((60, 3))
 
 
 @pytest.fixture
 def path(tmp_path):
-    return write("c3d", tmp_path)
+    """A marker that is hidden for three frames, and an analog channel at twice its rate."""
+    file, points = c3d(), np.ones((4, 1, 60))
+    points[:3, 0], points[:3, 0, 20:23] = TABLE.T, np.nan
+    for group, rate, name, unit in (("POINT", 200.0, "m1", "mm"), ("ANALOG", 400.0, "table", "g")):
+        for key, value in (("RATE", rate), ("LABELS", name), ("UNITS", unit)):
+            file["parameters"][group][key]["value"] = [value]
+    file["data"]["points"], file["data"]["analogs"] = points, np.repeat(TABLE[:, 1], 2)[None, None]
+    file.write(str(tmp_path / "recording.c3d"))
+    return tmp_path / "recording.c3d"
 
 
 def test_a_marker_is_three_columns_and_missing_where_it_was_not_seen(path):

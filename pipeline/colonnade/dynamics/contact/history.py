@@ -281,7 +281,7 @@ class AssemblyHistory(Together, Digested):
     0
     """
 
-    ESSENCE = "outcome, overturned_bodies, peak_ratio, overturning_time s"
+    _ESSENCE = "outcome, overturned_bodies, peak_ratio, overturning_time s"
 
     assembly: Assembly
     bodies: Mapping[str, BodyHistory]
