@@ -216,7 +216,20 @@ class Digested:
     """Attributes, each with its unit."""
 
     def digest(self) -> Mapping[str, str]:
-        """Return them by name, with units."""
+        """
+        Return what is most worth knowing.
+
+        Returns
+        -------
+        shown : mapping of str to str
+            Attributes by name, with their units.
+
+        Examples
+        --------
+        >>> import colonnade
+        >>> colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10).digest()["p"]
+        '5.631 rad/s'
+        """
         named = [each.partition(" ") for each in self._ESSENCE.split(", ")]
         return {name: shown(getattr(self, name), unit) for name, _, unit in named}
 
