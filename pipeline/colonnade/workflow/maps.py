@@ -19,7 +19,7 @@ from colonnade.campaign.assembly import APART, Whole
 from colonnade.campaign.forms.summary import Summary
 from colonnade.campaign.syntax.fields import MOST_CYCLES, Limits, MapPoints, MapRatio, Number, OneOf
 from colonnade.campaign.syntax.table import Table
-from colonnade.dynamics.block import Sided
+from colonnade.dynamics.block import Sided, pair
 from colonnade.dynamics.models import MODELS, NONLINEAR, PLANE_MODELS
 from colonnade.errors import CampaignError, StoreError
 from colonnade.identification.response.boundaries import MapPoint, makes_map
@@ -181,10 +181,10 @@ def kept_maps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Itera
         up to date with its specimen.
     """
     for specimen in specimens:
-        e = summary.specimens[specimen].restitution.value
-        if e is None or not makes_map(map_points(summary.tests, specimen)):
+        points, pooled = map_points(summary.tests, specimen), summary.specimens[specimen].restitution
+        if pooled.value is None or not makes_map(points):
             continue
-        measured = _measured(graph, summary, specimen)
+        measured = Measured(specimen, points, pair(pooled.value), pooled.source)
         in_plane = [model for model in graph.campaign.processing.predict.models if model in PLANE_MODELS]
         for model in models_moving(graph.campaign, specimen, in_plane):
             asked = usual = _product(graph, Wanted(), model, measured)

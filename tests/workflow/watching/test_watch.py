@@ -21,7 +21,8 @@ from processes import is_running, wait_until
 pytestmark = pytest.mark.whole
 
 
-def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path):
+def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "GRACE", 1.0)
     share = tmp_path / "share"
     share.mkdir()
     for test in ("pulse-02", "free-02"):

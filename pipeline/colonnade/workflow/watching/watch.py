@@ -34,7 +34,10 @@ TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
 """Files next to the campaign file that people change while it is watched."""
 
 AGAIN = 2.0
-"""Seconds of rest if another run held the campaign, or results could not be written."""
+"""Seconds until the next try if another run held the campaign, or results could not be written."""
+
+GRACE = 10.0
+"""Seconds without a change after which a file that cannot be used is called a failure."""
 
 BUSY = 0.2
 """Seconds between two looks while something goes on."""
@@ -112,9 +115,9 @@ class _Watching:
     share: Share | None
     _arrivals: Arrivals = field(init=False)
     _behind: Behind | None = None
-    _due: set[str] = field(default_factory=set)
+    _due: dict[str, float] = field(default_factory=dict)
     _is_outdated: bool = True
-    _rests_until: float = 0.0
+    _behind_from: float = 0.0
     _code: int = 0
     _said: set[str] = field(default_factory=set)
     _measured: dict[str, TestSummary] = field(default_factory=dict)
@@ -169,12 +172,11 @@ class _Watching:
         if finished := self._arrivals.look(marks_of(watched), now):
             self._is_outdated |= not finished.isdisjoint(self._texts)
             self._reload()
-            self._due |= {name for name in self.campaign.tests if not finished.isdisjoint(self._files([name]))}
-        for name in sorted(self._due):
-            if now >= self._rests_until:
-                self._due.remove(name)
-                self._is_outdated = True
-                self._measure(name, now)
+            self._due |= {name: now for name in self.campaign.tests if not finished.isdisjoint(self._files([name]))}
+        for name in [name for name, due in self._due.items() if due <= now]:
+            del self._due[name]
+            self._is_outdated = True
+            self._measure(name, now)
         self._go_on(now)
 
     def _measure(self, name: str, now: float) -> None:
@@ -188,8 +190,11 @@ class _Watching:
         except StoreError as error:
             self._say_once(str(error))
             if not self.is_once or is_refusal(str(error)):
-                self._due.add(name)
-                self._rests_until = now + AGAIN
+                self._due[name] = now + AGAIN
+            return
+        changed = max((since for _, since, _ in marks_of(test.files.values()).values()), default=0) / 1e9
+        if line.record.status == "failed" and time.time() - changed < GRACE:
+            self._due[name] = now + GRACE  # its writer may only pause
             return
         self._line, self._line_written = line.text(), time.time()
         self._show(line)
@@ -210,7 +215,7 @@ class _Watching:
             for failure in ended.failures:
                 self._say_once(failure)
             if is_refusal(ended.problem):
-                self._is_outdated, self._rests_until = True, now + AGAIN
+                self._is_outdated, self._behind_from = True, now + AGAIN
             elif ended.problem:
                 self._log(ended.problem)
                 self._say_once(
@@ -218,7 +223,7 @@ class _Watching:
                     f"All that it said is in {self.layout.watch_log}. It starts again after the next file."
                 )
         is_free = not (self._due or self._arrivals.is_waiting or self._behind)
-        if self._is_outdated and is_free and now >= self._rests_until:
+        if self._is_outdated and is_free and now >= self._behind_from:
             self._is_outdated = False
             self._behind = Behind(self.campaign.path, self.layout.results, self.workers)
         if ended is not None or now - self._alive >= EVERY:
