@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime, timedelta
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -120,9 +121,8 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> Dataset
                     "expected. Check the file's time column and the test's `window`."
                 )
             stamps[dimension], timed[dimension] = time, _clock_verdicts(time, clock, inputs.settings)
-        physical = values * (channel.factor * inputs.review.factors.get(name, 1.0))
-        physical += channel.offset
-        tracks.append(_Track(name, channel, column, dimension, values, physical))
+        factor = channel.factor * inputs.review.factors.get(name, 1.0)
+        tracks.append(_Track(name, channel, column, dimension, values, factor))
     table = [track for track in tracks if track.channel.on == "table" and track.channel.quantity == "acceleration"]
     judged = side_by_side(
         lambda track: _judged(track, table, stamps[track.dimension], timed[track.dimension], inputs), tracks
@@ -144,14 +144,21 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> Dataset
 
 @dataclass(frozen=True)
 class _Track:
-    """One channel on its clock: its values as in the file and in SI."""
+    """One channel on its clock: its values as in the file, and what they are multiplied by."""
 
     name: str
     channel: RecordedAs
     column: RecordedChannel
     dimension: str
     values: Array
-    physical: Array
+    factor: float
+
+    @cached_property
+    def physical(self) -> Array:
+        """Values in SI, made by the thread that judges them first."""
+        physical = self.values * self.factor
+        physical += self.channel.offset
+        return physical
 
 
 def _judged(
