@@ -254,7 +254,7 @@ def _on_cluster(scheduler: str) -> Iterator[Workers]:
         client = distributed.Client(scheduler, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError, AssertionError) as error:  # the last now and then, if a loop of it did not start
         raise ColonnadeError(
-            f"{scheduler}: no Dask scheduler answers there ({error or type(error).__name__}). The address that `dask "
+            f"{scheduler}: no Dask scheduler answers there ({error!r}). The address that `dask "
             'scheduler` shows when it starts was expected, such as "tcp://10.0.0.1:8786".'
         ) from error
     with client:
