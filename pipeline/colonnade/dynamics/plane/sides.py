@@ -9,7 +9,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.kernel import kernel_in_place
+from colonnade.dynamics.kernel import kernel_fused, kernel_in_place
 from colonnade.dynamics.plane.arc import excess_rise
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, Given, RestitutionLaw, of_sides
 
@@ -215,7 +215,7 @@ class WholeSample(NamedTuple):
     step: float
     critical: float
     factors: tuple[float, float, float, float, float, float, float, float]
-    bounds: tuple[float, float, float]
+    bounds: tuple[float, float]
 
 
 @kernel_in_place
@@ -227,10 +227,10 @@ def whole_sample(side: float, critical: float, p: float, dt: float, largest: flo
     c, s = 1.0 + rise, step + step * more
     factors = c, s, rise * critical, s * critical, rise - more, s - mean_rate, more, mean_rate
     limit, most = 0.25 * step**2, critical + largest
-    return WholeSample(side, p, step, critical, factors, (limit, limit * most, 0.5 * step * most))
+    return WholeSample(side, p, step, critical, factors, (limit * (most + critical), 0.5 * step * most))
 
 
-@kernel_in_place
+@kernel_fused
 def pass_over(angles: Array, velocities: Array, base: Array, sample: int, whole: WholeSample) -> int:
     """
     Propagate sample by sample for as long as no impact can hide inside one and |θ| ≤ α; return where that ends.
@@ -241,15 +241,16 @@ def pass_over(angles: Array, velocities: Array, base: Array, sample: int, whole:
     """
     side, p, _step, critical, factors, bounds = whole
     c, s, held, held_rate, now, now_rate, then, then_rate = factors
-    limit, floor, quick = bounds
+    low, quick = bounds
     height, climb = side * angles[sample], side * velocities[sample] / p
     back = side * p
     while sample < base.size - 1:
         push, following = side * base[sample], side * base[sample + 1]
-        end = c * height + s * climb - (held + now * push + then * following)
-        end_climb = s * height + c * climb - (held_rate + now_rate * push + then_rate * following)
-        clear = climb > quick or min(height, end) > floor + limit * max(height, end) or end_climb < -quick
-        if end > critical or end < 0.0 or not clear:
+        # Each sum waits for the last sample with its last term only.
+        end = s * climb + (c * height - (held + now * push + then * following))
+        end_climb = s * height + (c * climb - (held_rate + now_rate * push + then_rate * following))
+        clear = (height > low and end > low) or (end >= 0.0 and (climb > quick or end_climb < -quick))
+        if end > critical or not clear:
             return sample
         height, climb = end, end_climb
         sample += 1
