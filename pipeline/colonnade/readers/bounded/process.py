@@ -81,6 +81,7 @@ class _Reader:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
+            pipesize=2**20,  # where the system has larger ones than 64 kB: long files are passed on faster
             env={**os.environ, **dict.fromkeys(_THREADS, "1"), "MPLBACKEND": "Agg"},
             start_new_session=True,  # Ctrl-C is for the process that asks
             creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
