@@ -53,7 +53,7 @@ def test_what_became_of_stages_is_told_by_subject_the_worst_first():
 
 
 def recordings(small, digests):
-    """What is said of files with these digests in the first tests."""
+    """Findings about copied files, if the files of the first tests have these digests."""
     campaign = load(small.folder)
     tests = zip(campaign.tests, digests, strict=False)
     raw = {test: {path: RawFile(each, (1, 1, 1)) for path, each in files.items()} for test, files in tests}

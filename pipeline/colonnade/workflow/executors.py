@@ -53,7 +53,7 @@ Counted = Callable[[int, int], None]
 
 class Where(NamedTuple):
     """
-    Where work is done, and who is told of its blocks.
+    Where blocks are computed, and what follows their progress.
 
     Attributes
     ----------

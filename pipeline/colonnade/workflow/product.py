@@ -56,7 +56,7 @@ def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
 
 
 class Made(NamedTuple):
-    """A product that is up to date: its key, the text that is kept of it, and why there is none of it."""
+    """A product that is up to date: its key, its stored text, and the reason if there is none."""
 
     key: str
     text: str
