@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from colonnade.dynamics.block import Block
@@ -58,6 +58,8 @@ def test_rectangular_pulse_overturns_from_its_closed_form(length):
     steps=st.sampled_from([0.003, 0.05, 0.7]),
     released=st.floats(-0.9, 0.9),
 )
+@example(levels=[-3.0, 1.5], restitution=0.5, steps=0.05, released=0.0)
+@example(levels=[3.0, -1.5], restitution=0.5, steps=0.05, released=0.0)
 def test_a_coarse_sample_split_in_many_gives_the_same_history(levels, restitution, steps, released):
     # Two crossings and several impacts inside one sample are found: the refined record says the same.
     dt = steps / P

@@ -145,7 +145,7 @@ def uplift(start: float, part: Part, thresholds: Pair) -> tuple[float, int]:
     """
     end, level, slope, weight, lift, omega, phase = part
     now, sine = level + slope * start, sin(omega * start + phase)
-    for k in range(2):
+    for k in (0, 1) if now * sine > 0.0 else (1, 0):  # where it is pushed now comes first
         sign = (1.0 - 2.0 * k) * sine
         if sign * now > ABOVE * thresholds[k] * (weight + lift * start):
             return start, k
@@ -204,8 +204,9 @@ class WholeSample(NamedTuple):
     ----------
     side, p, step, critical : float
         ±1, p (rad/s), p dt and α.
-    factors : tuple of float
-        Coefficients of θ and ω/p over a sample, and of what α and a/g at its start and end take off each.
+    growing, decaying : tuple of float
+        Of (θ + ω/p)/2 and (θ − ω/p)/2, on this side: the factor over a sample, and what α and a/g at its start and end
+        take off.
     bounds : tuple of float
         What excludes an impact inside a sample, see `pass_over`.
     """
@@ -214,7 +215,8 @@ class WholeSample(NamedTuple):
     p: float
     step: float
     critical: float
-    factors: tuple[float, float, float, float, float, float, float, float]
+    growing: tuple[float, float, float, float]
+    decaying: tuple[float, float, float, float]
     bounds: tuple[float, float]
 
 
@@ -224,10 +226,10 @@ def whole_sample(side: float, critical: float, p: float, dt: float, largest: flo
     step = p * dt
     more, even = excess_rise(step * step)
     rise, mean_rate = step * step * even, step * even
-    c, s = 1.0 + rise, step + step * more
-    factors = c, s, rise * critical, s * critical, rise - more, s - mean_rate, more, mean_rate
-    limit, most = 0.25 * step**2, critical + largest
-    return WholeSample(side, p, step, critical, factors, (limit * (most + critical), 0.5 * step * most))
+    s, half, turn, limit, most = step + step * more, 0.5 * critical, 0.5 * side, 0.25 * step**2, critical + largest
+    growing = 1.0 + rise + s, half * (rise + s), turn * (rise - more + s - mean_rate), turn * (more + mean_rate)
+    decaying = 1.0 + rise - s, half * (rise - s), turn * (rise - more - s + mean_rate), turn * (more - mean_rate)
+    return WholeSample(side, p, step, critical, growing, decaying, (limit * (most + critical), 0.5 * step * most))
 
 
 @kernel_fused
@@ -239,30 +241,29 @@ def pass_over(angles: Array, velocities: Array, base: Array, sample: int, whole:
     that, there is no impact between them; nor where it leaves the one end, or comes to the other, faster than
     (α + largest) x/2.
     """
-    side, p, _step, critical, factors, bounds = whole
-    c, s, held, held_rate, now, now_rate, then, then_rate = factors
-    low, quick = bounds
+    side, p, _step, critical, up, down, (low, quick) = whole
+    (growth, held_up, now_up, then_up), (decay, held_down, now_down, then_down) = up, down
     height, climb = side * angles[sample], side * velocities[sample] / p
-    back = side * p
-    while sample < base.size - 1:
-        push, following = side * base[sample], side * base[sample + 1]
-        # Each sum waits for the last sample with its last term only.
-        end = s * climb + (c * height - (held + now * push + then * following))
-        end_climb = s * height + (c * climb - (held_rate + now_rate * push + then_rate * following))
-        clear = (height > low and end > low) or (end >= 0.0 and (climb > quick or end_climb < -quick))
-        if end > critical or not clear:
-            return sample
+    growing, decaying, back = 0.5 * (height + climb), 0.5 * (height - climb), side * p
+    # From 0 on: an index that could be negative costs a comparison each time.
+    heights, climbs, pushes = angles[sample:], velocities[sample:], base[sample:]
+    for k in range(pushes.size - 1):
+        now, then = pushes[k], pushes[k + 1]
+        # Each waits for the last sample with one product and sum only.
+        growing = growth * growing - (held_up + now_up * now + then_up * then)
+        decaying = decay * decaying - (held_down + now_down * now + then_down * then)
+        end, end_climb = growing + decaying, growing - decaying
+        if end > critical or not (min(height, end) > low or (end >= 0.0 and (climb > quick or end_climb < -quick))):
+            return sample + k
         height, climb = end, end_climb
-        sample += 1
-        angles[sample], velocities[sample] = side * height, back * climb
-    return sample
+        heights[k + 1], climbs[k + 1] = side * height, back * climb
+    return int(base.size - 1)
 
 
 @kernel_in_place
 def stay(base: Array, sample: int, thresholds: Pair) -> int:
     """Last sample up to which a block at rest at `sample` stays so."""
-    negative, positive = thresholds
     for following in range(sample, base.size):
-        if not -positive <= base[following] <= negative:
+        if not -thresholds[1] <= base[following] <= thresholds[0]:
             return max(sample, following - 1)
     return int(base.size - 1)
