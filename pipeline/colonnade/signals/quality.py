@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -132,11 +132,12 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
         Largest magnitude that the recorder or transducer can give. The top code of 12 bits, 2047/2048 of it, counts as
         reached.
     """
-    size = np.abs(values)
-    where = size >= full_scale * (1 - 5e-4)
-    if (size > BEYOND * full_scale).mean() > FEW_BEYOND:
+    least = full_scale * (1 - 5e-4)
+    where = (values >= least) | (values <= -least)
+    size = np.abs(values[where])
+    if np.count_nonzero(size > BEYOND * full_scale) > FEW_BEYOND * values.size:
         reason = (
-            f"{counted(where)} beyond the range of ±{full_scale:g}, up to {float(np.nanmax(size)):.4g}: the "
+            f"{counted(where)} beyond the range of ±{full_scale:g}, up to {float(size.max()):.4g}: the "
             "values are in another unit, of another column, or the range is wrong"
         )
         return Verdict(Flag.SUSPECT, where, serious("unit", reason))
@@ -197,6 +198,8 @@ def _standing_out(values: Array, threshold: float, typical: float) -> NDArray[np
     bends = np.abs(np.diff(values, 2))
     places = np.flatnonzero(bends > threshold * typical) + 1
     places = places[(places >= 3) & (places < values.size - 3)]
+    if not places.size:
+        return places
     earlier, before, sample, behind, later = (values[places + shift] for shift in range(-2, 3))
     lines = sample - 2 * before + earlier, sample - 2 * behind + later
     height = np.where(lines[0] * lines[1] > 0, np.minimum(*np.abs(lines)), 0.0)
@@ -258,19 +261,21 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
         return Verdict.good(values.size)
     filled = filled_in(values)
     noise = 0.3 * _or_smallest_step(_typical_bend(filled) / (0.3 * np.sqrt(6.0)), filled)
-    resting, extent = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()]), float(np.ptp(filled))
-    for signed, rest in ((filled, resting.max()), (-filled, -resting.min())):
-        top = float(signed.max())
-        if not top - rest > AWAY * extent:
+    resting, low, high = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()]), filled.min(), filled.max()
+    for sign, top, rest in ((1.0, high, resting.max()), (-1.0, -low, -resting.min())):
+        if not top - rest > AWAY * (high - low):
             continue
-        starts, stops = stretches(signed > top - BAND * noise)
+        edge = top - BAND * noise
+        starts, stops = stretches(filled > edge if sign > 0.0 else filled < -edge)
         half = (stops - starts) // 2
-        is_whole = (stops - starts >= FEWEST_AT_RAIL) & (starts >= half) & (stops + half <= signed.size)
+        is_whole = (stops - starts >= FEWEST_AT_RAIL) & (starts >= half) & (stops + half <= filled.size)
         starts, stops, half = starts[is_whole], stops[is_whole], half[is_whole]
-        is_steep = top - np.maximum(signed[starts - half], signed[stops + half - 1]) > STEEP * BAND * noise
+        is_steep = (
+            top - np.maximum(sign * filled[starts - half], sign * filled[stops + half - 1]) > STEEP * BAND * noise
+        )
         is_steep &= ~(time[stops - 1] - time[starts] > longest)
         for start, stop in zip(starts[is_steep], stops[is_steep], strict=True):
-            where[start:stop] |= signed[start + 1 : stop - 1].std() <= LEVEL * noise
+            where[start:stop] |= filled[start + 1 : stop - 1].std() <= LEVEL * noise
     level = float(np.abs(values[where]).max(initial=0.0))
     reason = (
         f"{counted(where)} stay at {level:.4g} (as recorded){first_at(time, where)}, between steep flanks: the channel "
@@ -285,20 +290,28 @@ def check_torn(time: Array, values: Array) -> Verdict:
     if np.count_nonzero(np.isfinite(values)) < 4 * FIRST:
         return Verdict.good(values.size)
     filled = filled_in(values)
-    steps = np.abs(np.diff(filled))
-    jump = int(np.argmax(steps))
+    jump, size = max(_largest_steps(filled), key=lambda step: step[1])
     # Two samples on either side belong to it, as a spike comes back.
-    size, before, after = float(steps[jump]), filled[: max(jump - 1, 1)], filled[jump + 3 :]
-    steps[max(jump - 2, 0) : jump + 3] = 0.0
+    before, after = filled[: max(jump - 1, 1)], filled[jump + 3 :]
     stands = after.size > 4 * FIRST and np.ptp(after) < AT_REST * size and np.ptp(before) > MOVED * size
     stands = stands and abs(after[0] - before[-1]) > MOVED * size
     is_gap = time[jump + 1] - time[jump] > FAST * (time[-1] - time[0]) / time.size
-    where[jump + 1 :] = stands and size > FAST * steps.max() and not is_gap
+    if stands and not is_gap:
+        others = (step for part in (before, after) for _, step in _largest_steps(part))
+        where[jump + 1 :] = size > FAST * max(others, default=0.0)
     reason = (
         f"it jumps by {size:.4g} (as recorded) at {time[jump + 1]:.4g} s, and stands still from then on: its cable "
         "tore, or its core came off. The peak is a lower bound, and the specimen may have overturned"
     )
     return Verdict(Flag.SUSPECT, where, serious("dead channel", reason))
+
+
+def _largest_steps(values: Array) -> Iterator[tuple[int, float]]:
+    """Where the largest step of each block begins, and its size."""
+    for part in blocks(values.size - 1):
+        steps = np.abs(np.diff(values[part.start : part.stop + 1]))
+        largest = int(steps.argmax())
+        yield part.start + largest, float(steps[largest])
 
 
 def counted(where: Mask) -> str:

@@ -43,7 +43,8 @@ def stretches(chosen: Mask) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """
     padded = np.zeros(chosen.size + 2, dtype=bool)
     padded[1:-1] = chosen
-    return np.flatnonzero(padded[1:] > padded[:-1]), np.flatnonzero(padded[1:] < padded[:-1])
+    edges = np.flatnonzero(padded[1:] != padded[:-1])
+    return edges[::2], edges[1::2]
 
 
 def filled_in(values: Array) -> Array:

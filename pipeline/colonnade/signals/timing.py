@@ -80,7 +80,7 @@ def read_clock(stamps: Array) -> Clock:
     [5.0, nan, 7.0]
     """
     if _is_exact(stamps):
-        return Clock(stamps, float(np.diff(stamps).mean()), 0.0, is_exact=True)
+        return Clock(stamps, float(stamps[-1] - stamps[0]) / (stamps.size - 1), 0.0, is_exact=True)
     kept = _in_order(stamps, repeats=True)
     resolution = _resolution(stamps[kept])
     if kept.size > 2 and 0 < resolution <= COARSEST * np.ptp(stamps[kept]):

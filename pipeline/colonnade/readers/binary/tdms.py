@@ -72,7 +72,9 @@ def read(path: Path, options: TdmsOptions) -> Recording:
         if step and not column.is_clock:
             steps[len(columns)], key = step, (offset, step, column.values.size)
             if key not in shared:
-                shared[key] = offset + step * np.arange(column.values.size, dtype=np.float64)
+                shared[key] = np.arange(column.values.size, dtype=np.float64)
+                shared[key] *= step
+                shared[key] += offset
             column = replace(column, time=shared[key], start=_moment(properties.get("wf_start_time")))
         columns.append(column)
     for step, number in Counter(steps.values()).items():
