@@ -39,7 +39,8 @@ def test_every_command_has_help_with_an_example(colonnade, command):
 @every(
     ("arguments", "code", "said"),
     [
-        (("rnu",), 2, "Did you mean 'run'"),
+        (("rnu",), 2, 'Did you mean "run"?'),
+        (("show", "demo"), 2, 'Choose one of: "tests", "specimens", "settings", "formats".'),
         (("run", "--form", "predict"), 2, "--form"),
         (("run", "--from", "prediction"), 2, "prediction"),
         (("run", "--workers", "0"), 2, "x>=1"),

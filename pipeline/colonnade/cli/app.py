@@ -5,6 +5,7 @@ from __future__ import annotations
 import rich_click as click
 
 import colonnade
+from colonnade.cli.common.options import Commands
 from colonnade.cli.demo import demo, init
 from colonnade.cli.figure import figure
 from colonnade.cli.questions import calibrate, foresee, fragility, map_command, next_command, spectrum
@@ -17,16 +18,8 @@ COMMANDS = (
 )
 
 
-class InOrder(click.RichGroup):
-    """Lists its commands in the order in which a user needs them, not alphabetically."""
-
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        """Names in the order in which they were added."""
-        return list(self.commands)
-
-
 @click.group(
-    cls=InOrder,
+    cls=Commands,
     epilog="Exit codes: 0 all good; 1 a test failed, the others are done; 2 wrong usage or campaign file; 130 "
     "interrupted.",
     context_settings={"help_option_names": ["-h", "--help"]},

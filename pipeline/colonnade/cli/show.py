@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Record = dict[str, Any]
 
 
-@click.group()
+@click.group(cls=options.Commands)
 def show() -> None:
     """Show what is known: tests, specimens, settings and formats."""
 

@@ -9,10 +9,28 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import rich_click as click
 
+from colonnade.errors import nearest, quoted
+
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
     from colonnade.campaign.syntax.table import Table
     from colonnade.store.layout import Layout
+
+
+class Commands(click.RichGroup):
+    """Commands in the order in which a user needs them, not alphabetically; named where one is asked that is not."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names in the order in which they were added."""
+        return list(self.commands)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command."""
+        if args[0] not in self.commands and not args[0].startswith("-"):
+            ctx.fail(f"There is no command {quoted(args[0])}.{nearest(args[0], self.list_commands(ctx))}")
+        return super().resolve_command(ctx, args)
 
 
 class Asking(click.RichCommand):
