@@ -53,3 +53,21 @@ def test_titles_and_labels_are_inside_the_figure(models, column):
     assert box.y0 >= 0.0
     assert box.x1 <= wide
     assert box.y1 <= high
+
+
+@every("column", ["single", "double"])
+def test_numbers_keep_clear_of_the_bars_of_their_neighbours(column):
+    points = [
+        point(0.30, 0.30, 0.1, 0.9, 1),
+        point(0.33, 0.2, 0.1, 0.9),
+        point(0.5, 0.3, 0.1, None, 2),
+        point(0.6, 0.9),
+    ]
+    with journal(column):
+        axes = panel(*points)
+    axes.figure.draw_without_rendering()
+    for text in axes.texts:
+        box = text.get_window_extent()
+        for each in points[:3]:
+            across = axes.transData.transform((each.measured, 1.0))[0]
+            assert not box.x0 < across < box.x1, (text.get_text(), each.measured)

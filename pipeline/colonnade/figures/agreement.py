@@ -27,6 +27,9 @@ PANEL = 0.88
 CLEAR = 7.0
 """Printer's points from the middle of a label to the next mark that are enough."""
 
+ALONG = 30
+"""Places on a bar that a label keeps clear of."""
+
 
 class PeakPoint(NamedTuple):
     """
@@ -114,12 +117,11 @@ def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[flo
     """Draw the points of a model in a panel of this side, in printer's points."""
     low, high = limits
     color = model_style(model)["color"]
-    bars = [point for point in points if point.low is not None]
+    bars = [(each.measured, max(each.low, low), each.high or high) for each in points if each.low is not None]
     if bars:
         # One line with gaps: a bar each would make a page of a thousand tests heavy.
-        across = np.array([[point.measured, point.measured, np.nan] for point in bars]).ravel()
-        ends = [[max(point.low or low, low), point.high or high, np.nan] for point in bars]
-        axes.plot(across, np.array(ends).ravel(), color=color, linewidth=0.8, alpha=0.45, zorder=2)
+        lines = np.array([[(across, bottom), (across, top), (np.nan, np.nan)] for across, bottom, top in bars])
+        axes.plot(*lines.reshape(-1, 2).T, color=color, linewidth=0.8, alpha=0.45, zorder=2)
     predicted = np.array([np.inf if point.predicted is None else point.predicted for point in points])
     heights = np.where(predicted > high, high / 1.06, np.where(predicted < low, low * 1.06, predicted))
     measured = np.array([point.measured for point in points])
@@ -137,13 +139,18 @@ def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[flo
                 edgecolors=color,
             )
             places.set_urls([link_to(point.test) for point, is_so in zip(points, chosen, strict=True) if is_so])
-    where = np.log(np.column_stack((measured, heights)) / low) / np.log(high / low) * side
-    taken = list(where)
+    where, ends = (
+        np.log(each / low) / np.log(high / low) * side
+        for each in (np.column_stack((measured, heights)), np.reshape(bars, (-1, 3)))
+    )
+    across, bottom, top = ends.T[..., None]
+    along = np.broadcast_arrays(across, bottom + np.linspace(0.0, 1.0, ALONG) * (top - bottom))
+    taken = np.vstack((where, np.stack(along, axis=-1).reshape(-1, 2)))
     for place, point, height in zip(where, points, heights.tolist(), strict=True):
         if point.number is None:
             continue
-        shift = _free_place(place, np.array(taken), side)
-        taken.append(place + shift)
+        shift = _free_place(place, taken, side)
+        taken = np.vstack((taken, place + shift))
         aside = (float(shift[0]), float(shift[1]))
         note(axes, str(point.number), (point.measured, height), aside, ha="center", va="center", fontsize=7)
 
