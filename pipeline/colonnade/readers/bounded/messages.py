@@ -94,13 +94,13 @@ class Answer(BaseModel):
 
 
 def send(stream: IO[bytes], arrays: Arrays, **answer: Any) -> None:
-    """Write an answer and its arrays."""
-    arrays = [np.ascontiguousarray(array, dtype="|u1" if array.dtype == np.uint8 else "<f8") for array in arrays]
-    forms = [{"dtype": array.dtype.str, "shape": array.shape} for array in arrays]
+    """Write an answer and its arrays; each is let go then, so that whoever receives them finds memory."""
+    forms = [Form(dtype="|u1" if array.dtype == np.uint8 else "<f8", shape=array.shape) for array in arrays]
     # Halves of characters, which a damaged file may have and UTF-8 has not, become question marks.
-    line = json.dumps({**answer, "arrays": forms}, ensure_ascii=False).encode("utf-8", errors="replace")
-    stream.write(line + b"\n")
-    for array in arrays:
+    told = {**answer, "arrays": [form.model_dump() for form in forms]}
+    stream.write(json.dumps(told, ensure_ascii=False).encode("utf-8", errors="replace") + b"\n")
+    for form in forms:
+        array = np.ascontiguousarray(arrays.pop(0), dtype=form.dtype)
         stream.write(array.reshape(-1).view(np.uint8).data)
     stream.flush()
 
