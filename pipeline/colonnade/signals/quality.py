@@ -177,19 +177,19 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     after it. At an impact, where a record may have a cusp, a sample lies on one of the lines; a step lies on one as
     well, and passes.
     """
-    where, known = np.zeros(values.size, dtype=bool), np.isfinite(values)
-    if known.sum() < FEWEST:
+    where, filled = np.zeros(values.size, dtype=bool), filled_in(values, FEWEST)
+    if not filled.size:
         return Verdict.good(values.size)
-    filled = filled_in(values)
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
     typical = _or_smallest_step(_typical_bend(filled), filled)
     for part in blocks(values.size):
         begin = max(part.start - NEIGHBOURHOOD, 0)
         places = begin + _standing_out(filled[begin : part.stop + NEIGHBOURHOOD], threshold, typical)
         where[places[(places >= part.start) & (places < part.stop)]] = True
-    where &= known
+    if filled is not values:
+        where &= np.isfinite(values)
     # They are bridged: a few do not touch the result.
-    told = note if where.mean() <= FEW_SPIKES else warning
+    told = note if np.count_nonzero(where) <= FEW_SPIKES * where.size else warning
     return Verdict(Flag.FAIL, where, told("spikes", f"spikes on {counted(where)}{first_at(time, where)}"))
 
 
@@ -256,10 +256,9 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
     The top of a parabola fills the band of 8 σ and leaves it slowly. Saturation is flat but for the noise σ, and its
     flanks are steep. What stays for longer than `longest` (s) is held there.
     """
-    where = np.zeros(values.size, dtype=bool)
-    if np.count_nonzero(np.isfinite(values)) < 4 * FIRST:
+    where, filled = np.zeros(values.size, dtype=bool), filled_in(values, 4 * FIRST)
+    if not filled.size:
         return Verdict.good(values.size)
-    filled = filled_in(values)
     noise = 0.3 * _or_smallest_step(_typical_bend(filled) / (0.3 * np.sqrt(6.0)), filled)
     resting, low, high = np.array([filled[:FIRST].mean(), filled[-FIRST:].mean()]), filled.min(), filled.max()
     for sign, top, rest in ((1.0, high, resting.max()), (-1.0, -low, -resting.min())):
@@ -286,10 +285,9 @@ def check_rails(time: Array, values: Array, *, longest: float = np.inf) -> Verdi
 
 def check_torn(time: Array, values: Array) -> Verdict:
     """Flag what follows a jump, far faster than all other motion, after which a channel that moved stands still."""
-    where = np.zeros(values.size, dtype=bool)
-    if np.count_nonzero(np.isfinite(values)) < 4 * FIRST:
+    where, filled = np.zeros(values.size, dtype=bool), filled_in(values, 4 * FIRST)
+    if not filled.size:
         return Verdict.good(values.size)
-    filled = filled_in(values)
     jump, size = max(_largest_steps(filled), key=lambda step: step[1])
     # Two samples on either side belong to it, as a spike comes back.
     before, after = filled[: max(jump - 1, 1)], filled[jump + 3 :]

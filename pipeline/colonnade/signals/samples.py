@@ -47,9 +47,11 @@ def stretches(chosen: Mask) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return edges[::2], edges[1::2]
 
 
-def filled_in(values: Array) -> Array:
-    """Return values with straight lines where they are missing, and the nearest one at the ends."""
+def filled_in(values: Array, fewest: int = 0) -> Array:
+    """Return values with straight lines where they are missing, the nearest one at the ends; nothing of too few."""
     finite = np.isfinite(values)
+    if np.count_nonzero(finite) < fewest:
+        return np.empty(0)
     return values if finite.all() else np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
 
 

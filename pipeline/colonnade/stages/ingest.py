@@ -157,7 +157,8 @@ class _Track:
     def physical(self) -> Array:
         """Values in SI, made by the thread that judges them first."""
         physical = self.values * self.factor
-        physical += self.channel.offset
+        if self.channel.offset:
+            physical += self.channel.offset
         return physical
 
 
