@@ -164,6 +164,21 @@ def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small):
         assert is_refusal(wait_until(Behind(*given).ended).problem)
 
 
+def test_workers_of_the_run_behind_write_nothing_between_the_lines(small, tmp_path, monkeypatch, capfd):
+    # Joblib's workers print a traceback where the run that started them is killed just then.
+    there = tmp_path / "there"
+    text = "import sys\nif 'popen_loky' in str(sys.orig_argv):\n    print('a worker', flush=True)\n"
+    text += f"    open({str(there)!r}, 'w').close()\n"
+    (tmp_path / "sitecustomize.py").write_text(text, encoding="utf-8")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    small.change_a_sample("pulse-01")
+    small.change_a_sample("pulse-02")
+    behind = Behind(small.folder / "campaign.toml", None, 2)
+    wait_until(there.exists)
+    behind.give_way()
+    assert "a worker" not in capfd.readouterr().out
+
+
 def test_a_run_that_is_killed_says_so(small):
     behind = Behind(small.folder / "campaign.toml", None, 1)
     behind._process.kill()

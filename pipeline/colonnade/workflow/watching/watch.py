@@ -314,8 +314,10 @@ class Behind:
 def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
     """Run a campaign, and tell how it ended; end with the watch."""
     settle_in(watch)
-    # Joblib's tracker, a process of its own, removes what a killed run leaves behind, and need not say so.
-    os.environ["PYTHONWARNINGS"] = "ignore:resource_tracker:UserWarning"
+    # What it has to say it tells; workers of a killed run would write tracebacks between the lines of the watch.
+    nothing = os.open(os.devnull, os.O_RDWR)
+    for stream in (1, 2):
+        os.dup2(nothing, stream)
     if hasattr(os, "nice"):
         os.nice(NICENESS)
     try:
