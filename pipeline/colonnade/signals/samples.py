@@ -48,7 +48,7 @@ def stretches(chosen: Mask) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def filled_in(values: Array, fewest: int = 0) -> Array:
-    """Return values with straight lines where they are missing, the nearest one at the ends; nothing of too few."""
+    """Return values with straight lines where some are missing, the nearest at the ends; none if too few are there."""
     finite = np.isfinite(values)
     if np.count_nonzero(finite) < fewest:
         return np.empty(0)

@@ -252,7 +252,7 @@ def _on_cluster(scheduler: str) -> Iterator[Workers]:
         ) from error
     try:
         client = distributed.Client(scheduler, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError, AssertionError) as error:  # the last now and then, if a loop of it did not start
+    except (OSError, ValueError, AssertionError) as error:  # the last if its event loop did not start
         raise ColonnadeError(
             f"{scheduler}: no Dask scheduler answers there ({error!r}). The address that `dask "
             'scheduler` shows when it starts was expected, such as "tcp://10.0.0.1:8786".'

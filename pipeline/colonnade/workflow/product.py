@@ -56,7 +56,7 @@ def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
 
 
 class Made(NamedTuple):
-    """A product that is up to date: its key, its stored text, and the reason if there is none."""
+    """An up-to-date product: its key and its stored text, or why no text is stored."""
 
     key: str
     text: str

@@ -32,23 +32,23 @@ def mark(size):
 def test_a_file_that_is_known_is_given_again_when_it_has_changed(looks, finished):
     arrivals = Arrivals(settle=1.0)
     arrivals.know({FILE: mark(1)})
-    given_out = [arrivals.look({FILE: mark(size)} if size else {}, now) for now, size in enumerate(looks)]
-    assert given_out == [{FILE} if is_given else set() for is_given in finished]
+    returned = [arrivals.look({FILE: mark(size)} if size else {}, now) for now, size in enumerate(looks)]
+    assert returned == [{FILE} if is_given else set() for is_given in finished]
 
 
 @given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(0, 3)), max_size=40))
 def test_each_content_is_given_once_and_only_after_it_settled(steps):
-    arrivals, now, changed, last, given_out, written = Arrivals(settle=1.0), 0.0, 0.0, None, False, 0
+    arrivals, now, changed, last, returned, written = Arrivals(settle=1.0), 0.0, 0.0, None, False, 0
     for pause, size in steps:
         now += pause
         if size != last:
-            last, changed, given_out, written = size, now, False, written + 1
+            last, changed, returned, written = size, now, False, written + 1
         finished = arrivals.look({FILE: (size, written, 1)}, now)
         if finished:
             assert now - changed >= 1.0
-            assert not given_out
-            given_out = True
-        assert given_out or now - changed < 1.0
+            assert not returned
+            returned = True
+        assert returned or now - changed < 1.0
 
 
 KNOWN = RestitutionSummary(value=0.976, low=0.974, high=0.978, level=0.95, source="identified", tests=("a", "b"))

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Commands(click.RichGroup):
-    """Commands in the order in which a user needs them, not alphabetically; named where one is asked that is not."""
+    """Lists its commands in the order in which a user needs them; an unknown one is answered with the list."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names in the order in which they were added."""

@@ -39,7 +39,7 @@ EVEN = tuple(1.0 / factorial(2 * k + 2) for k in range(11))
 """Coefficients of sinh x / x and (cosh x − 1)/x² in x²; of sin and cos with −x²."""
 
 SHORT = 2e-3
-"""In x²: up to here four terms leave less than rounding; most samples of a record are so short."""
+"""In x²: up to here four terms leave less than rounding, as in most samples of a record."""
 
 LONGEST_STEP = 1.9
 """In x and in φ: up to here the eleven terms of `ODD` and `EVEN` leave less than rounding."""

@@ -145,7 +145,7 @@ def uplift(start: float, part: Part, thresholds: Pair) -> tuple[float, int]:
     """
     end, level, slope, weight, lift, omega, phase = part
     now, sine = level + slope * start, sin(omega * start + phase)
-    for k in (0, 1) if now * sine > 0.0 else (1, 0):  # where it is pushed now comes first
+    for k in (0, 1) if now * sine > 0.0 else (1, 0):  # first the side to which it is pushed
         sign = (1.0 - 2.0 * k) * sine
         if sign * now > ABOVE * thresholds[k] * (weight + lift * start):
             return start, k

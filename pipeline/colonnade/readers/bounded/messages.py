@@ -94,7 +94,7 @@ class Answer(BaseModel):
 
 
 def send(stream: IO[bytes], arrays: Arrays, **answer: Any) -> None:
-    """Write an answer and its arrays; each is let go then, so that whoever receives them finds memory."""
+    """Write an answer and its arrays; each is freed once it is sent, so that the receiver can use its memory."""
     forms = [Form(dtype="|u1" if array.dtype == np.uint8 else "<f8", shape=array.shape) for array in arrays]
     # Halves of characters, which a damaged file may have and UTF-8 has not, become question marks.
     told = {**answer, "arrays": [form.model_dump() for form in forms]}

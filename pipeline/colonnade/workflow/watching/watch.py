@@ -314,7 +314,7 @@ class Behind:
 def _run(tell: Connection, watch: int, campaign_file: Path, results: Path | None, workers: int | None) -> None:
     """Run a campaign, and tell how it ended; end with the watch."""
     settle_in(watch)
-    # What it has to say it tells; workers of a killed run would write tracebacks between the lines of the watch.
+    # Its result goes through the pipe. Workers of a killed run would print tracebacks between the lines of the watch.
     nothing = os.open(os.devnull, os.O_RDWR)
     for stream in (1, 2):
         os.dup2(nothing, stream)
